@@ -1,0 +1,21 @@
+//! Recognises the surfaces that a scanned mechanical part was made of.
+
+#![forbid(unsafe_code)]
+
+pub mod context;
+pub mod error;
+pub mod math;
+pub mod mesh;
+pub mod options;
+pub mod partition;
+pub mod pipeline;
+pub mod result;
+pub mod surface;
+
+pub use context::Context;
+pub use error::Error;
+pub use mesh::Mesh;
+pub use options::Options;
+pub use pipeline::segment;
+pub use result::Segmentation;
+pub use surface::Surface;

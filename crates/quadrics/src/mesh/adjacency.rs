@@ -1,0 +1,92 @@
+//! Which faces share an edge, and which share a vertex. By sorting, not by hashing.
+
+use rayon::slice::ParallelSliceMut;
+
+/// Marks an edge without a neighbour: a border, or an edge that is not manifold.
+pub const NONE: u32 = u32::MAX;
+
+/// Neighbours of faces, flat.
+#[derive(Debug, Clone, Default)]
+pub struct Adjacency {
+    /// The face across edge `i` of a face, from its corner `i` to corner `i + 1`; [`NONE`] at a border.
+    pub neighbours: Vec<[u32; 3]>,
+    /// Faces around vertex `v`: `incident[offsets[v]..offsets[v + 1]]`.
+    offsets: Vec<u32>,
+    incident: Vec<u32>,
+}
+
+impl Adjacency {
+    /// Adjacency of `faces` over `vertices` vertices. Edges of more than two faces have no neighbours.
+    pub fn new(faces: &[[u32; 3]], vertices: usize) -> Self {
+        let (offsets, incident) = faces_around_vertices(faces, vertices);
+        Self { neighbours: face_neighbours(faces), offsets, incident }
+    }
+
+    /// The faces at a vertex, in ascending order.
+    pub fn around(&self, vertex: u32) -> &[u32] {
+        let v = vertex as usize;
+        &self.incident[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+    }
+
+    /// The faces across the edges of `face`.
+    pub fn across(&self, face: usize) -> impl Iterator<Item = usize> {
+        self.neighbours[face].into_iter().filter(|&n| n != NONE).map(|n| n as usize)
+    }
+}
+
+fn face_neighbours(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    // Edge key in the high bits, half-edge in the low ones: equal edges become neighbours in the order.
+    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * faces.len());
+    for (face, corners) in faces.iter().enumerate() {
+        for i in 0..3 {
+            let (a, b) = (corners[i], corners[(i + 1) % 3]);
+            edges.push((u64::from(a.min(b)) << 32 | u64::from(a.max(b)), (3 * face + i) as u32));
+        }
+    }
+    edges.par_sort_unstable();
+    let mut neighbours = vec![[NONE; 3]; faces.len()];
+    for same in edges.chunk_by(|one, other| one.0 == other.0) {
+        if let &[(_, one), (_, other)] = same {
+            neighbours[one as usize / 3][one as usize % 3] = other / 3;
+            neighbours[other as usize / 3][other as usize % 3] = one / 3;
+        }
+    }
+    neighbours
+}
+
+fn faces_around_vertices(faces: &[[u32; 3]], vertices: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut offsets = vec![0u32; vertices + 1];
+    for &vertex in faces.iter().flatten() {
+        offsets[vertex as usize + 1] += 1;
+    }
+    for v in 0..vertices {
+        offsets[v + 1] += offsets[v];
+    }
+    let mut next = offsets.clone();
+    let mut incident = vec![0; 3 * faces.len()];
+    for (face, corners) in faces.iter().enumerate() {
+        for &vertex in corners {
+            incident[next[vertex as usize] as usize] = face as u32;
+            next[vertex as usize] += 1;
+        }
+    }
+    (offsets, incident)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_triangles_of_a_square_see_each_other_across_the_diagonal() {
+        let adjacency = Adjacency::new(&[[0, 1, 2], [0, 2, 3]], 4);
+        assert_eq!(adjacency.neighbours, [[NONE, NONE, 1], [0, NONE, NONE]]);
+        assert_eq!(adjacency.around(2), [0, 1]);
+    }
+
+    #[test]
+    fn an_edge_of_three_faces_has_no_neighbours() {
+        let adjacency = Adjacency::new(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]], 5);
+        assert!(adjacency.neighbours.iter().flatten().all(|&n| n == NONE));
+    }
+}

@@ -1,0 +1,37 @@
+//! Triangle meshes: positions and faces, and what follows from them alone.
+
+mod adjacency;
+mod geometry;
+
+pub use adjacency::{Adjacency, NONE};
+pub use geometry::Geometry;
+
+use crate::math::Point;
+
+/// An indexed triangle mesh. Faces are counter-clockwise seen from outside.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mesh {
+    /// Where the vertices are, in the unit of the input.
+    pub positions: Vec<Point>,
+    /// Three vertices a face, counted from 0.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// The three corners of a face.
+    pub fn corners(&self, face: usize) -> [Point; 3] {
+        self.faces[face].map(|vertex| self.positions[vertex as usize])
+    }
+
+    /// Least and greatest coordinates of the vertices that faces use; `None` without faces.
+    pub fn bounds(&self) -> Option<(Point, Point)> {
+        let mut used = self.faces.iter().flatten().map(|&v| self.positions[v as usize]);
+        let first = used.next()?;
+        Some(used.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p))))
+    }
+
+    /// The longest side of the bounding box: the *size* that relative lengths refer to.
+    pub fn size(&self) -> f64 {
+        self.bounds().map_or(0.0, |(low, high)| (high - low).max())
+    }
+}
