@@ -9,6 +9,8 @@ pub mod mesh;
 pub mod options;
 pub mod partition;
 pub mod pipeline;
+pub mod prepare;
+pub mod recognise;
 pub mod result;
 pub mod surface;
 

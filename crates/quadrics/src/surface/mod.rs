@@ -9,6 +9,7 @@ mod local;
 mod plane;
 mod quadric;
 mod refine;
+pub mod select;
 mod sphere;
 pub mod start;
 mod torus;

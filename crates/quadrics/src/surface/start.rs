@@ -48,12 +48,15 @@ pub fn sphere(samples: Samples) -> Option<Surface> {
         .then(|| Surface::Sphere(Sphere { center: center + shift, radius }))
 }
 
+/// Axes whose cosine exceeds this are one: a start may err by a degree or two, not by ten.
+const SAME_AXIS: f64 = 0.9995;
+
 /// Axis directions worth trying, best guesses first, without near repetitions.
 pub fn axes(samples: Samples) -> Vec<Unit> {
     let mut found: Vec<Unit> = Vec::new();
     let mut propose = |axis: Vector| {
         if let Some(axis) = Unit::try_new(axis, 1e-9)
-            && found.iter().all(|known| known.dot(&axis).abs() < 0.97)
+            && found.iter().all(|known| known.dot(&axis).abs() < SAME_AXIS)
         {
             found.push(axis);
         }
@@ -64,6 +67,9 @@ pub fn axes(samples: Samples) -> Vec<Unit> {
     let small = scatter(samples.normals.iter().map(|n| n - mean)).symmetric_eigen();
     propose(great.eigenvectors.column(great.eigenvalues.imin()).into_owned());
     propose(small.eigenvectors.column(small.eigenvalues.imin()).into_owned());
+    if let Some(axis) = revolution_axis(samples) {
+        propose(axis);
+    }
     if let Some((_, directions)) = curvatures(samples) {
         directions.into_iter().for_each(&mut propose);
     }
@@ -74,6 +80,26 @@ pub fn axes(samples: Samples) -> Vec<Unit> {
         }
     }
     found
+}
+
+/// The direction about which a rotation moves the samples least across themselves.
+///
+/// The velocity field `c × x + d` is tangent where `c · (x × n) + d · n = 0` (Pottmann and Randrup,
+/// "Rotational and helical surface approximation", Computing 1998).
+fn revolution_axis(samples: Samples) -> Option<Vector> {
+    let center = centroid(samples.points)?;
+    let (mut turn, mut mixed, mut shift) = (Matrix3::zeros(), Matrix3::zeros(), Matrix3::zeros());
+    for (p, n) in samples.points.iter().zip(samples.normals) {
+        let torque = (p - center).cross(n);
+        turn += torque * torque.transpose();
+        mixed += torque * n.transpose();
+        shift += n * n.transpose();
+    }
+    // A cylinder may be shifted along its axis: the ridge keeps that direction out.
+    let ridge = 1e-6 * shift.trace();
+    let inverse = (shift + Matrix3::identity() * ridge).try_inverse()?;
+    let eigen = (turn - mixed * inverse * mixed.transpose()).symmetric_eigen();
+    Some(eigen.eigenvectors.column(eigen.eigenvalues.imin()).into_owned())
 }
 
 /// Principal curvatures of a height field over the plane of least squares, and their directions,
