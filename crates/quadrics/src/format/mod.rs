@@ -72,7 +72,8 @@ pub fn read(extension: &str, bytes: &[u8], open: &mut Open) -> Result<Loaded> {
     }
 }
 
-/// An [`Error::Format`].
-fn error(format: &'static str, reason: impl Into<String>) -> Error {
-    Error::Format { format, reason: reason.into() }
+/// An [`Error::Format`] on one line, even where it quotes the file: a terminal obeys control characters.
+fn error(format: &'static str, reason: impl AsRef<str>) -> Error {
+    let plain = |letter: char| if letter.is_control() { '?' } else { letter };
+    Error::Format { format, reason: reason.as_ref().chars().take(300).map(plain).collect() }
 }

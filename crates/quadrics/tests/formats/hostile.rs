@@ -108,8 +108,8 @@ fn an_error_says_what_where_and_what_to_do() {
         ("stl", fixtures::binary_stl(b"solid part")[..200].into(), &["claims 4", "after 2"]),
         (
             "stl",
-            fixtures::ascii_stl(&["a"]).replace("vertex 1 1", "vertex 1 one").into(),
-            &["STL: line 6", "\"1e0\""],
+            fixtures::ascii_stl(&["a"]).replace("vertex 1 1e0", "vertex 1 one").into(),
+            &["STL: line 6", "\"one\" is not a number"],
         ),
         (
             "stl",
