@@ -69,6 +69,13 @@ fn a_polygon_is_a_fan_and_remembers_its_face() {
 }
 
 #[test]
+fn a_face_of_the_file_takes_the_label_of_most_of_its_area() {
+    let of_triangle = vec![0, 1, 1, 1, 2, 2];
+    let faces = format::InputFaces { of_triangle, count: 3 };
+    assert_eq!(faces.labels(&[9, 4, 5, 4, 8, 7], &[0.0, 1.0, 1.5, 1.0, 2.0, 2.0]), [9, 4, 7]);
+}
+
+#[test]
 fn a_buffer_is_asked_for_by_its_decoded_name() {
     let text = fixtures::GLTF.replace("URI", r#", "uri": "my%20part/b%C3%BCffer.bin""#);
     let mut asked = Vec::new();
