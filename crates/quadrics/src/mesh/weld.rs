@@ -22,8 +22,7 @@ impl Welder {
 
     /// The number of this position; a new one if it was not seen before.
     pub fn add(&mut self, position: Point) -> u32 {
-        // Adding zero turns -0.0 into 0.0 and leaves all else alone.
-        let position = Point::from(position.coords.add_scalar(0.0));
+        let position = normal(position);
         if 2 * (self.positions.len() + 1) > self.slots.len() {
             self.grow();
         }
@@ -33,6 +32,18 @@ impl Welder {
             self.positions.push(position);
         }
         self.slots[slot]
+    }
+
+    /// The numbers of several positions.
+    ///
+    /// Looked up all at once before they are added one by one: the memory is then waited for once a
+    /// batch instead of once a position, where neighbours in the file are none on the part.
+    pub fn add_all<const N: usize>(&mut self, positions: [Point; N]) -> [u32; N] {
+        let mask = self.slots.len() - 1;
+        let slots = positions.map(|p| self.slots[hash(&normal(p)) & mask]);
+        let seen = slots.map(|slot| self.positions.get(slot as usize).map_or(0.0, |p| p.x));
+        std::hint::black_box(seen);
+        positions.map(|position| self.add(position))
     }
 
     /// The distinct positions, by number.
@@ -62,6 +73,11 @@ fn find(slots: &[u32], positions: &[Point], position: &Point) -> usize {
         slot = (slot + 1) & mask;
     }
     slot
+}
+
+/// Adding zero turns -0.0 into 0.0 and leaves all else alone.
+fn normal(position: Point) -> Point {
+    Point::from(position.coords.add_scalar(0.0))
 }
 
 /// Not `==`: NaN must equal itself here, or it would fill the table.
@@ -95,6 +111,17 @@ mod tests {
         assert_eq!(welder.len(), 37 * 41);
         let positions = welder.into_positions();
         assert!(numbers.iter().enumerate().all(|(i, &number)| positions[number] == grid(i)));
+    }
+
+    #[test]
+    fn a_batch_gets_the_numbers_that_its_positions_get_one_by_one() {
+        let (mut one, mut other) = (Welder::new(), Welder::new());
+        for i in 0..4000 {
+            let batch =
+                std::array::from_fn(|j| Point::new(f64::from(i * j as u32 % 997), -0.0, 0.1));
+            assert_eq!(one.add_all::<7>(batch), batch.map(|position| other.add(position)));
+        }
+        assert_eq!(one.into_positions(), other.into_positions());
     }
 
     #[test]
