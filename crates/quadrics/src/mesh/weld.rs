@@ -4,20 +4,29 @@
 //! joined. One open-addressing table over the positions already seen; it grows with the distinct
 //! vertices, not with the corners, and so stays in the cache six times longer.
 
+use std::hash::{BuildHasher, RandomState};
+
 use crate::math::Point;
 
 const EMPTY: u32 = u32::MAX;
+/// Any odd number without pattern (of wyhash).
+const SPREAD: u64 = 0x8ebc_6af0_9c88_c6e3;
 
 /// Numbers positions in the order in which they first appear.
 #[derive(Debug)]
 pub(crate) struct Welder {
     positions: Vec<Point>,
     slots: Vec<u32>,
+    keys: [u64; 3],
 }
 
 impl Welder {
     pub fn new() -> Self {
-        Self { positions: Vec::new(), slots: vec![EMPTY; 1 << 10] }
+        // Drawn anew each time, or a file could be made whose positions all fall into one slot. The
+        // numbers do not depend on them.
+        let random = RandomState::new();
+        let keys = [0, 1, 2].map(|i| random.hash_one(i));
+        Self { positions: Vec::new(), slots: vec![EMPTY; 1 << 10], keys }
     }
 
     /// The number of this position; a new one if it was not seen before.
@@ -26,7 +35,7 @@ impl Welder {
         if 2 * (self.positions.len() + 1) > self.slots.len() {
             self.grow();
         }
-        let slot = find(&self.slots, &self.positions, &position);
+        let slot = self.find(&self.slots, &position);
         if self.slots[slot] == EMPTY {
             self.slots[slot] = self.positions.len() as u32;
             self.positions.push(position);
@@ -40,7 +49,7 @@ impl Welder {
     /// batch instead of once a position, where neighbours in the file are none on the part.
     pub fn add_all<const N: usize>(&mut self, positions: [Point; N]) -> [u32; N] {
         let mask = self.slots.len() - 1;
-        let slots = positions.map(|p| self.slots[hash(&normal(p)) & mask]);
+        let slots = positions.map(|p| self.slots[hash(&normal(p), &self.keys) & mask]);
         let seen = slots.map(|slot| self.positions.get(slot as usize).map_or(0.0, |p| p.x));
         std::hint::black_box(seen);
         positions.map(|position| self.add(position))
@@ -58,21 +67,22 @@ impl Welder {
     fn grow(&mut self) {
         let mut slots = vec![EMPTY; 4 * self.slots.len()];
         for (number, position) in self.positions.iter().enumerate() {
-            let slot = find(&slots, &self.positions, position);
+            let slot = self.find(&slots, position);
             slots[slot] = number as u32;
         }
         self.slots = slots;
     }
-}
 
-/// The slot that holds this position, or the empty one where it belongs.
-fn find(slots: &[u32], positions: &[Point], position: &Point) -> usize {
-    let mask = slots.len() - 1;
-    let mut slot = hash(position) & mask;
-    while slots[slot] != EMPTY && bits(&positions[slots[slot] as usize]) != bits(position) {
-        slot = (slot + 1) & mask;
+    /// The slot that holds this position, or the empty one where it belongs.
+    fn find(&self, slots: &[u32], position: &Point) -> usize {
+        let mask = slots.len() - 1;
+        let mut slot = hash(position, &self.keys) & mask;
+        let wanted = bits(position);
+        while slots[slot] != EMPTY && bits(&self.positions[slots[slot] as usize]) != wanted {
+            slot = (slot + 1) & mask;
+        }
+        slot
     }
-    slot
 }
 
 /// Adding zero turns -0.0 into 0.0 and leaves all else alone.
@@ -87,10 +97,9 @@ fn bits(position: &Point) -> [u64; 3] {
 
 /// Folded products, as wyhash does: the low bits of an f64 that was an f32 are all zero, so every
 /// bit of the input has to reach the low bits of the hash.
-fn hash(position: &Point) -> usize {
+fn hash(position: &Point, keys: &[u64; 3]) -> usize {
     let [x, y, z] = bits(position);
-    let xy = fold(x ^ 0xa076_1d64_78bd_642f, y ^ 0xe703_7ed1_a0b4_28db);
-    fold(xy ^ 0x8ebc_6af0_9c88_c6e3, z ^ 0x5899_65cc_7537_4cc3) as usize
+    fold(fold(x ^ keys[0], y ^ keys[1]) ^ SPREAD, z ^ keys[2]) as usize
 }
 
 fn fold(a: u64, b: u64) -> u64 {
