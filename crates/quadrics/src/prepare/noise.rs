@@ -57,7 +57,10 @@ fn residual(points: &[Point]) -> Option<f64> {
     if points.len() < 12 {
         return None;
     }
-    let Surface::Plane(base) = start::plane(Samples { points, normals: &[] })? else { return None };
+    let Surface::Plane(base) = start::plane(Samples { points, barycentres: &[], normals: &[] })?
+    else {
+        return None;
+    };
     let center = crate::surface::centroid(points)?;
     let (u, v) = frame(&base.normal);
     let spread = points.iter().map(|p| (p - center).norm_squared()).sum::<f64>();

@@ -47,7 +47,8 @@ pub fn face_cost(scene: &Scene, model: &Model, face: usize) -> f64 {
 fn cost<S: Shape>(scene: &Scene, shape: &S, side: f64, face: usize) -> f64 {
     let sigma = scene.evidence.sigma;
     let position = scene.squared_distance(shape, face) / (2.0 * sigma * sigma);
-    let normal = scene.normal_deviation(shape, face, side) / (2.0 * scene.normal_sigma.powi(2));
+    let normal =
+        scene.normal_deviation(shape, face, side) / (2.0 * scene.evidence.normal_sigma.powi(2));
     position + normal.min(NORMAL_CAP)
 }
 
@@ -182,18 +183,26 @@ fn expand_one(
 
 /// Fewest faces of a piece that a cut left apart from its region and that stands on its own.
 const PIECE: u32 = 40;
+/// Pieces of a region this many faces apart are joined again: narrow bands tear at a single face.
+const GAP: usize = 4;
+/// Most rounds of mending; two bands that tear each other would never end.
+const MENDS: usize = 5;
+/// Pieces of fewer faces are not worth a bridge.
+const CRUMB: u32 = 4;
+/// What a face may cost on a surface to become a bridge between two pieces of its region.
+const BRIDGE: f64 = 20.0;
 
-/// Makes every region connected: large pieces become regions on the same surface, crumbs join a
-/// neighbour.
+/// Makes every region connected: torn bands are mended, large pieces become regions on the same
+/// surface, crumbs join a neighbour.
 pub fn connect(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
-    let (component, sizes) = components(labels, &scene.adjacency);
-    let mut largest = vec![UNLABELLED; models.len()];
-    for (face, &label) in labels.iter().enumerate() {
-        let best = &mut largest[label as usize];
-        if *best == UNLABELLED || sizes[component[face] as usize] > sizes[*best as usize] {
-            *best = component[face];
+    // Pieces join in pairs, so half of them are left each time.
+    for _ in 0..MENDS {
+        if !mend(scene, models, labels) {
+            break;
         }
     }
+    let (component, sizes) = components(labels, &scene.adjacency);
+    let largest = largest_pieces(labels, &component, &sizes, models.len());
     let mut own: Vec<u32> = vec![UNLABELLED; sizes.len()];
     for face in 0..labels.len() {
         let piece = component[face] as usize;
@@ -208,4 +217,68 @@ pub fn connect(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
         labels[face] = own[piece];
     }
     flood(scene, models, labels);
+}
+
+/// The component that is the largest of each label.
+fn largest_pieces(labels: &[u32], component: &[u32], sizes: &[u32], count: usize) -> Vec<u32> {
+    let mut largest = vec![UNLABELLED; count];
+    for (face, &label) in labels.iter().enumerate() {
+        let best = &mut largest[label as usize];
+        if *best == UNLABELLED || sizes[component[face] as usize] > sizes[*best as usize] {
+            *best = component[face];
+        }
+    }
+    largest
+}
+
+/// Bridges small gaps between the pieces of a region over faces that its surface nearly explains.
+/// Whether any was bridged.
+fn mend(scene: &Scene, models: &[Model], labels: &mut [u32]) -> bool {
+    let (component, sizes) = components(labels, &scene.adjacency);
+    let largest = largest_pieces(labels, &component, &sizes, models.len());
+    let mut starts: Vec<Vec<u32>> = vec![Vec::new(); sizes.len()];
+    for (face, &label) in labels.iter().enumerate() {
+        if component[face] != largest[label as usize] && sizes[component[face] as usize] >= CRUMB {
+            starts[component[face] as usize].push(face as u32);
+        }
+    }
+    let mut seen = Marks::default();
+    let mut bridged = false;
+    for (piece, faces) in starts.iter().enumerate().filter(|(_, faces)| !faces.is_empty()) {
+        let label = labels[faces[0] as usize];
+        let model = &models[label as usize];
+        seen.clear(labels.len());
+        // Breadth first over foreign faces: (face, where it was reached from, hops).
+        let mut walk: Vec<(u32, usize, usize)> = Vec::new();
+        for &face in faces {
+            seen.mark(face);
+            walk.push((face, usize::MAX, 0));
+        }
+        let mut next = 0;
+        let mut reached = None;
+        while next < walk.len() && reached.is_none() {
+            let (face, _, hops) = walk[next];
+            for other in scene.adjacency.across(face as usize) {
+                if labels[other] == label && component[other] as usize != piece {
+                    reached = Some(next);
+                    break;
+                }
+                if hops < GAP
+                    && labels[other] != label
+                    && face_cost(scene, model, other) < BRIDGE
+                    && seen.mark(other as u32)
+                {
+                    walk.push((other as u32, next, hops + 1));
+                }
+            }
+            next += 1;
+        }
+        let mut at = reached.unwrap_or(usize::MAX);
+        while at != usize::MAX && walk[at].1 != usize::MAX {
+            labels[walk[at].0 as usize] = label;
+            at = walk[at].1;
+            bridged = true;
+        }
+    }
+    bridged
 }

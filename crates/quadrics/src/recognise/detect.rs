@@ -261,7 +261,7 @@ fn inliers_of<S: Shape>(
     seen: &mut Marks,
 ) -> Vec<u32> {
     let near = (REACH * scene.evidence.sigma).powi(2);
-    let turn = (REACH * scene.normal_sigma).max(0.2).powi(2);
+    let turn = (REACH * scene.evidence.normal_sigma).max(0.2).powi(2);
     let explains = |face: usize| {
         labels[face] == UNLABELLED
             && scene.squared_distance(shape, face) < near

@@ -14,7 +14,7 @@ use crate::surface::Surface;
 use crate::surface::select::Evidence;
 
 /// Regions that are grown per round, and rounds.
-const PROBES: usize = 48;
+const PROBES: usize = 32;
 const ROUNDS: usize = 5;
 /// Residuals beyond 2.5 sigma are not in the region: the rest scatter less by this factor.
 const TRUNCATION: f64 = 1.1;
@@ -30,10 +30,14 @@ const CORRELATED: f64 = 0.3;
 /// Independent samples over vertices on scans; the choice of types hardly depends on it.
 const INDEPENDENT: f64 = 0.05;
 
-/// What a probe saw: deviation, correlation across edges, faces.
+/// Below it a mesh is clean, and a quadric that fits is the surface; above, quadrics bridge creases.
+const QUIET: f64 = 20.0 * ROUNDING;
+
+/// What a probe saw: deviation, its correlation across edges, deviation of normals, faces.
 struct Row {
     sigma: f64,
     correlation: f64,
+    turn: f64,
     faces: f64,
 }
 
@@ -43,6 +47,7 @@ struct Row {
 /// Cancellation.
 pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
     let local = scene.evidence.sigma;
+    let expected = scene.evidence.normal_sigma;
     for round in 0..ROUNDS {
         context.step("noise", round as f64 / ROUNDS as f64)?;
         let mut rows = probe(context, scene);
@@ -52,13 +57,17 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
         let before = scene.evidence.sigma;
         let sigma = (TRUNCATION * quantile(&mut rows, |row| row.sigma)).max(ROUNDING);
         let correlated = quantile(&mut rows, |row| row.correlation) > CORRELATED;
+        // Regions show how good normals are far from creases; near them they are no better than expected.
+        let turn = quantile(&mut rows, |row| row.turn).max(expected);
+        let known = Evidence { normal_sigma: turn, ..scene.evidence };
         if correlated && sigma > 2.0 * ROUNDING {
-            scene.evidence = Evidence { sigma, independent: INDEPENDENT };
+            scene.evidence = Evidence { sigma, independent: INDEPENDENT, ..known };
         } else {
             // Independent noise shows in small neighbourhoods already; whole regions can only tell
             // that curvature was mistaken for it.
-            scene.evidence = Evidence { sigma: sigma.min(local), independent: 1.0 };
+            scene.evidence = Evidence { sigma: sigma.min(local), independent: 1.0, ..known };
         }
+        scene.evidence.general = scene.evidence.sigma < QUIET;
         if (1.0 / SETTLED..SETTLED).contains(&(scene.evidence.sigma / before)) {
             break;
         }
@@ -80,16 +89,23 @@ fn probe(context: &mut Context, scene: &Scene) -> Vec<Row> {
 
 /// Root mean square residual over the corners of some faces, and its correlation across edges.
 fn scatter(scene: &Scene, surface: &Surface, faces: &[u32]) -> Row {
-    let (mut squares, mut products) = (0.0, 0.0);
+    let (mut squares, mut products, mut turns) = (0.0, 0.0, 0.0);
     for &face in faces {
         let [a, b, c] =
             scene.mesh.corners(face as usize).map(|p| surface.distance(p).unwrap_or(0.0));
         squares += a * a + b * b + c * c;
         products += a * b + b * c + c * a;
+        let normal = surface.normal(scene.geometry.barycentres[face as usize]);
+        turns += normal.map_or(0.0, |n| 2.0 - 2.0 * n.dot(&scene.normals[face as usize]).abs());
     }
     let faces = faces.len() as f64;
     let correlation = if squares > 0.0 { products / squares } else { 0.0 };
-    Row { sigma: (squares / (3.0 * faces)).sqrt(), correlation, faces }
+    Row {
+        sigma: (squares / (3.0 * faces)).sqrt(),
+        correlation,
+        turn: (turns / faces).sqrt(),
+        faces,
+    }
 }
 
 /// The quantile of the rows, each counting as many times as it has faces.

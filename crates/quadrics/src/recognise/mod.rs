@@ -27,8 +27,6 @@ pub struct Outcome {
     pub surfaces: Vec<Surface>,
     /// Noise, in the unit of the mesh.
     pub evidence: Evidence,
-    /// Standard deviation of the filtered normals, in radians.
-    pub normal_sigma: f64,
 }
 
 /// Recognises the surfaces of a mesh that lies in the unit cube.
@@ -53,7 +51,7 @@ pub fn recognise(
         models = vec![Model { surface: Surface::Plane(unknown), side: 1.0 }; count];
         moves::fit(&scene, &mut models, &labels);
     }
-    for round in 0..ROUNDS {
+    for round in 0..(crate::surface::select::env("ROUNDS", ROUNDS as f64) as usize) {
         context.step("optimise", round as f64 / ROUNDS as f64)?;
         context.timed("assign", |_| {
             assign::expand(&scene, &models, &mut labels);
@@ -62,7 +60,9 @@ pub fn recognise(
         })?;
         context.timed("moves", |_| {
             moves::tidy(&mut models, &mut labels);
-            moves::drop_needless(&scene, &models, &mut labels);
+            if std::env::var("NODROP").is_err() {
+                moves::drop_needless(&scene, &models, &mut labels);
+            }
             moves::tidy(&mut models, &mut labels);
             Ok(())
         })?;
@@ -70,19 +70,21 @@ pub fn recognise(
             moves::fit(&scene, &mut models, &labels);
             Ok(())
         })?;
-        if round + 1 < ROUNDS {
+        if round + 1 < ROUNDS && std::env::var("NOSPLIT").is_err() {
             context.timed("split", |context| {
                 split::split(context, &scene, &mut models, &mut labels)
             })?;
             assign::connect(&scene, &mut models, &mut labels);
         }
         context.timed("merge", |_| {
-            moves::merge(&scene, &mut models, &mut labels);
+            if std::env::var("NOMERGE").is_err() {
+                moves::merge(&scene, &mut models, &mut labels);
+            }
             Ok(())
         })?;
     }
     let surfaces = models.into_iter().map(|m| m.surface).collect();
-    Ok(Outcome { labels, surfaces, evidence: scene.evidence, normal_sigma: scene.normal_sigma })
+    Ok(Outcome { labels, surfaces, evidence: scene.evidence })
 }
 
 /// Rounds of the loop.

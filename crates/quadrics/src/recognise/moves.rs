@@ -106,7 +106,8 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
             continue;
         }
         let vertices = (faces.len() as f64 / 2.0).max(2.0);
-        let price = LABEL + 2.0 * select::cost(&models[id].surface) * vertices.ln() / 2.0;
+        let price = select::env("LAB", LABEL)
+            + select::env("PEN", 2.0) * select::cost(&models[id].surface) * vertices.ln() / 2.0;
         let mut gain = price;
         let mut moved: Vec<u32> = Vec::with_capacity(faces.len());
         for &face in faces {
@@ -151,7 +152,8 @@ pub fn merge(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) -> usiz
             .map_init(Marks::default, |marks, (a, b, _)| {
                 let faces = [regions.faces(a as usize), regions.faces(b as usize)].concat();
                 let choice = choose(scene, &faces, evidence, marks)?;
-                let gain = own[a as usize] + own[b as usize] + 2.0 * LABEL - choice.criterion;
+                let gain = own[a as usize] + own[b as usize] + 2.0 * select::env("LAB", LABEL)
+                    - choice.criterion;
                 (gain > 0.0).then_some((gain, a, b, choice))
             })
             .flatten()

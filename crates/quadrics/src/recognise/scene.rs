@@ -18,14 +18,15 @@ pub struct Scene<'a> {
     pub normals: Vec<Vector>,
     /// Noise of the vertices.
     pub evidence: Evidence,
-    /// Standard deviation of the filtered normals about those of the surfaces, in radians.
-    pub normal_sigma: f64,
     /// Mean edge length.
     pub edge: f64,
 }
 
 /// Rounding of the input's coordinates, in sizes: no sigma is smaller.
 pub const ROUNDING: f64 = 2e-6;
+/// Weight of a filtered normal beside a vertex: neighbouring normals were averaged together, so few
+/// of them are independent.
+const NORMAL_WEIGHT: f64 = 0.3;
 /// Normal noise below which nothing is filtered, in radians.
 const QUIET: f64 = 0.03;
 /// Least standard deviation of normals: facets of a curved surface are not tangent to it.
@@ -50,8 +51,14 @@ impl<'a> Scene<'a> {
             let reach = 0.2 + 0.55 * raw;
             (normals::filter(&geometry, &rings, rounds, reach), NORMAL_FLOOR + 0.2 * raw)
         };
-        let evidence = Evidence { sigma, independent: 1.0 };
-        Self { mesh, geometry, adjacency, normals: filtered, evidence, normal_sigma, edge }
+        let evidence = Evidence {
+            sigma,
+            independent: 1.0,
+            normal_sigma,
+            normal_weight: std::env::var("NW").map_or(NORMAL_WEIGHT, |v| v.parse().unwrap()),
+            general: true,
+        };
+        Self { mesh, geometry, adjacency, normals: filtered, evidence, edge }
     }
 
     /// Squared distance of a face's corners from a surface, their mean.
@@ -84,11 +91,13 @@ impl<'a> Scene<'a> {
         let total = vertices.len();
         let step = (total as f64 / limit as f64).max(1.0);
         let picked = (0..).map(|i| (f64::from(i) * step) as usize).take_while(|&i| i < total);
-        let (points, normals) = picked
-            .map(|i| vertices[i])
-            .map(|(v, f)| (self.mesh.positions[v as usize], self.normals[f as usize]))
-            .unzip();
-        Gathered { points, normals, total }
+        let mut gathered = Gathered { total, ..Gathered::default() };
+        for (vertex, face) in picked.map(|i| vertices[i]) {
+            gathered.points.push(self.mesh.positions[vertex as usize]);
+            gathered.barycentres.push(self.geometry.barycentres[face as usize]);
+            gathered.normals.push(self.normals[face as usize]);
+        }
+        gathered
     }
 
     /// Whether the noise is that of a scan: neighbours err together.
@@ -101,10 +110,13 @@ impl<'a> Scene<'a> {
 const ENOUGH: usize = 15;
 
 /// Samples of a set of faces.
+#[derive(Default)]
 pub struct Gathered {
     /// Positions of the sampled vertices.
     pub points: Vec<Point>,
-    /// Filtered normal of a face at each.
+    /// Barycentre of a face at each.
+    pub barycentres: Vec<Point>,
+    /// Filtered normal of that face.
     pub normals: Vec<Vector>,
     /// Vertices of all the faces.
     pub total: usize,
@@ -113,7 +125,11 @@ pub struct Gathered {
 impl Gathered {
     /// As the fits want them.
     pub fn samples(&self) -> crate::surface::Samples<'_> {
-        crate::surface::Samples { points: &self.points, normals: &self.normals }
+        crate::surface::Samples {
+            points: &self.points,
+            barycentres: &self.barycentres,
+            normals: &self.normals,
+        }
     }
 }
 

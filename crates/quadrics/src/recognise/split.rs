@@ -4,7 +4,7 @@
 use super::assign::{self, Model, face_cost};
 use super::detect;
 use super::moves::{self, LABEL};
-use super::scene::Scene;
+use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
 use crate::partition::{Regions, UNLABELLED};
@@ -27,10 +27,11 @@ pub fn split(
     let before = models.len();
     // Everything outside the region in hand is taken.
     let mut inside = vec![detect::TAKEN; labels.len()];
+    let mut marks = Marks::default();
     let mut dead = vec![false; labels.len()];
     for id in 0..regions.len() {
         let faces = regions.faces(id);
-        if faces.len() < FEWEST {
+        if faces.len() < FEWEST || !suspicious(scene, &models[id], faces, &mut marks) {
             continue;
         }
         let whole = energy(scene, std::slice::from_ref(&models[id]), faces, |_| 0);
@@ -60,6 +61,16 @@ pub fn split(
     }
     Ok(models.len() - before)
 }
+
+/// A region is tried when more than noise is left in it, or when its surface could bridge others.
+fn suspicious(scene: &Scene, model: &Model, faces: &[u32], marks: &mut Marks) -> bool {
+    let gathered = scene.samples(faces, 100, marks);
+    let misfit = select::misfit(&model.surface, gathered.samples(), scene.evidence);
+    misfit > SUSPICIOUS
+}
+
+/// Mean squared deviation, in squared sigmas, from which a region is tried.
+const SUSPICIOUS: f64 = 1.0;
 
 /// Gives every face of the region to the part that explains it best, and fits the parts again.
 fn settle(scene: &Scene, parts: &mut Vec<Model>, faces: &[u32], inside: &mut [u32]) {
@@ -95,7 +106,8 @@ fn energy(scene: &Scene, parts: &[Model], faces: &[u32], part_of: impl Fn(u32) -
     }
     let price = |(model, &count): (&Model, &usize)| {
         let vertices = (count as f64 / 2.0).max(2.0);
-        LABEL + select::cost(&model.surface) * vertices.ln()
+        select::env("LAB", LABEL)
+            + select::env("PEN", 2.0) / 2.0 * select::cost(&model.surface) * vertices.ln()
     };
     weight * sum + parts.iter().zip(&counts).map(price).sum::<f64>()
 }

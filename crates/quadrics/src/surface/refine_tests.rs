@@ -46,7 +46,7 @@ fn exact_points_give_the_exact_surface() {
     ];
     for truth in truth {
         let (points, normals) = patch(&truth);
-        let samples = Samples { points: &points, normals: &normals };
+        let samples = Samples { points: &points, barycentres: &points, normals: &normals };
         let starts: Vec<Surface> = match &truth {
             Surface::Plane(_) => start::plane(samples).into_iter().collect(),
             Surface::Sphere(_) => start::sphere(samples).into_iter().collect(),
@@ -112,7 +112,7 @@ fn an_ellipsoid_is_recovered_as_a_quadric() {
     let form = nalgebra::Matrix3::from_diagonal(&Vector::new(4.0, 9.0, 2.0));
     let truth = Surface::Quadric(Quadric::about(Point::new(0.6, 0.5, 0.3), -1.0, form));
     let (points, normals) = patch(&truth);
-    let samples = Samples { points: &points, normals: &normals };
+    let samples = Samples { points: &points, barycentres: &points, normals: &normals };
     let fit = refine(&start::quadric(samples).unwrap(), &points, &[]).unwrap();
     assert!(fit.cost < 1e-16, "{fit:?}");
 }

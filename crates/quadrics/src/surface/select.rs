@@ -15,6 +15,12 @@ pub struct Evidence {
     pub sigma: f64,
     /// Independent samples over vertices: 1 for independent noise, a few per cent on scans.
     pub independent: f64,
+    /// Standard deviation of the (filtered) face normals, in radians.
+    pub normal_sigma: f64,
+    /// Weight of a normal beside a vertex; 0 where positions alone decide.
+    pub normal_weight: f64,
+    /// Whether a general quadric may be chosen.
+    pub general: bool,
 }
 
 /// A surface chosen for some points.
@@ -38,8 +44,8 @@ const FINAL_ITERATIONS: usize = 25;
 const LARGEST_RADIUS: f64 = 5.0;
 /// Half angles outside this range, in degrees, are cylinders or planes.
 const HALF_ANGLES: (f64, f64) = (0.3, 88.0);
-/// A surface that the points straddle has normals of both signs; the mean sign must exceed this.
-const ONE_SIDED: f64 = 0.6;
+/// Least mean cosine between the normals of the samples and of the surface.
+const ONE_SIDED: f64 = 0.85;
 /// Part of the noise that is expected to remain whatever is fitted.
 const LEAST_MISFIT: f64 = 0.6;
 
@@ -56,29 +62,43 @@ pub fn cost(surface: &Surface) -> f64 {
     }
 }
 
-/// Mean capped squared distance in squared sigmas.
-pub fn misfit(surface: &Surface, points: &[Point], sigma: f64) -> f64 {
-    fn mean<S: Shape>(shape: &S, points: &[Point], sigma: f64) -> f64 {
-        let scale = 1.0 / (sigma * sigma);
-        let sum: f64 = points.iter().map(|&p| (shape.distance(p).powi(2) * scale).min(CAP)).sum();
-        sum / points.len().max(1) as f64
+/// Mean capped squared distance in squared sigmas, together with that of the normals.
+pub fn misfit(surface: &Surface, samples: Samples, evidence: Evidence) -> f64 {
+    fn mean<S: Shape>(shape: &S, samples: Samples, evidence: Evidence) -> f64 {
+        let count = samples.points.len().max(1) as f64;
+        let scale = evidence.sigma.powi(-2);
+        let positions =
+            samples.points.iter().map(|&p| (shape.distance(p).powi(2) * scale).min(CAP));
+        let positions = positions.sum::<f64>() / count;
+        if evidence.normal_weight == 0.0 {
+            return positions;
+        }
+        let scale = evidence.normal_sigma.powi(-2);
+        let turns = samples.barycentres.iter().zip(samples.normals).map(|(&p, n)| {
+            // Which side is outside is the region's affair, not the surface's.
+            let cosine = shape.normal(p).map_or(0.0, |m| m.dot(n).abs());
+            ((2.0 - 2.0 * cosine) * scale).min(CAP)
+        });
+        let weight = evidence.normal_weight;
+        (positions + weight * turns.sum::<f64>() / count) / (1.0 + weight)
     }
     match surface {
-        Surface::Plane(s) => mean(s, points, sigma),
-        Surface::Sphere(s) => mean(s, points, sigma),
-        Surface::Cylinder(s) => mean(s, points, sigma),
-        Surface::Cone(s) => mean(s, points, sigma),
-        Surface::Torus(s) => mean(s, points, sigma),
-        Surface::Quadric(s) => mean(s, points, sigma),
+        Surface::Plane(s) => mean(s, samples, evidence),
+        Surface::Sphere(s) => mean(s, samples, evidence),
+        Surface::Cylinder(s) => mean(s, samples, evidence),
+        Surface::Cone(s) => mean(s, samples, evidence),
+        Surface::Torus(s) => mean(s, samples, evidence),
+        Surface::Quadric(s) => mean(s, samples, evidence),
         Surface::FreeForm => CAP,
     }
 }
 
 /// The criterion of a surface for `vertices` vertices of which `samples` are looked at.
 pub fn judge(surface: Surface, samples: Samples, vertices: usize, evidence: Evidence) -> Choice {
-    let misfit = misfit(&surface, samples.points, evidence.sigma);
+    let misfit = misfit(&surface, samples, evidence);
     let count = (vertices as f64 * evidence.independent).max(2.0);
-    let criterion = count * misfit + 2.0 * cost(&surface) * count.ln();
+    let criterion = count * (1.0 + evidence.normal_weight) * misfit
+        + env("PEN", 2.0) * cost(&surface) * count.ln();
     Choice { surface, misfit, criterion }
 }
 
@@ -96,7 +116,9 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
         choices.first().map_or(f64::INFINITY, |best| best.criterion)
     };
     let count = (vertices as f64 * evidence.independent).max(2.0);
-    let bound = |cost: f64| count * LEAST_MISFIT + 2.0 * cost * count.ln();
+    let bound = |cost: f64| {
+        count * (1.0 + evidence.normal_weight) * LEAST_MISFIT + env("PEN", 2.0) * cost * count.ln()
+    };
     let mut best = f64::INFINITY;
     if let Some(plane) = start::plane(samples) {
         best = consider(&mut choices, plane);
@@ -127,7 +149,8 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
         best = consider(&mut choices, torus);
     }
     let simple = choices.first().map_or(CAP, |best| best.misfit);
-    if best > bound(9.0)
+    if evidence.general
+        && best > bound(9.0)
         && simple > QUADRIC_FROM
         && samples.points.len() >= 14
         && let Some(quadric) = start::quadric(samples)
@@ -185,8 +208,20 @@ fn plausible(surface: &Surface, samples: Samples) -> bool {
     sensible && one_sided(surface, samples)
 }
 
+/// Whether the samples' normals agree with the surface's, up to one sign: a tube as thin as the
+/// noise runs through the cloud with both its sides.
 fn one_sided(surface: &Surface, samples: Samples) -> bool {
-    let sign = |(p, n): (&Point, &Vector)| surface.normal(*p).map_or(0.0, |m| m.dot(n).signum());
-    let sum: f64 = samples.points.iter().zip(samples.normals).map(sign).sum();
+    let cosine = |(p, n): (&Point, &Vector)| surface.normal(*p).map_or(0.0, |m| m.dot(n));
+    let sum: f64 = samples.barycentres.iter().zip(samples.normals).map(cosine).sum();
     sum.abs() > ONE_SIDED * samples.points.len() as f64
+}
+
+/// tmp
+pub fn env(name: &str, default: f64) -> f64 {
+    static MAP: std::sync::OnceLock<std::collections::HashMap<String, f64>> =
+        std::sync::OnceLock::new();
+    let map = MAP.get_or_init(|| {
+        std::env::vars().filter_map(|(k, v)| v.parse().ok().map(|v| (k, v))).collect()
+    });
+    map.get(name).copied().unwrap_or(default)
 }

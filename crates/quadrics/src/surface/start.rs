@@ -11,12 +11,14 @@ use super::refine::centroid;
 use super::{Cone, Cylinder, Plane, Quadric, Sphere, Surface, Torus};
 use crate::math::{Point, Unit, Vector, frame};
 
-/// Points with a normal each (unit length, or zero where unknown).
+/// Points of a surface, and normals at other points of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Samples<'a> {
-    /// Positions.
+    /// Positions: vertices, which lie on the surface up to the noise.
     pub points: &'a [Point],
-    /// Outward normals.
+    /// Where the normals were taken: barycentres of faces.
+    pub barycentres: &'a [Point],
+    /// Outward unit normals there.
     pub normals: &'a [Vector],
 }
 
@@ -87,9 +89,9 @@ pub fn axes(samples: Samples) -> Vec<Unit> {
 /// The velocity field `c × x + d` is tangent where `c · (x × n) + d · n = 0` (Pottmann and Randrup,
 /// "Rotational and helical surface approximation", Computing 1998).
 fn revolution_axis(samples: Samples) -> Option<Vector> {
-    let center = centroid(samples.points)?;
+    let center = centroid(samples.barycentres)?;
     let (mut turn, mut mixed, mut shift) = (Matrix3::zeros(), Matrix3::zeros(), Matrix3::zeros());
-    for (p, n) in samples.points.iter().zip(samples.normals) {
+    for (p, n) in samples.barycentres.iter().zip(samples.normals) {
         let torque = (p - center).cross(n);
         turn += torque * torque.transpose();
         mixed += torque * n.transpose();
@@ -131,11 +133,11 @@ pub fn curvatures(samples: Samples) -> Option<([f64; 2], [Vector; 2])> {
 
 /// The point of an axis of known direction that the normals' lines come nearest to.
 fn axis_point(samples: Samples, axis: &Unit) -> Option<Point> {
-    let center = centroid(samples.points)?;
+    let center = centroid(samples.barycentres)?;
     let (u, v) = frame(axis);
     let mut matrix = Matrix2::zeros();
     let mut right = Vector2::zeros();
-    for (p, n) in samples.points.iter().zip(samples.normals) {
+    for (p, n) in samples.barycentres.iter().zip(samples.normals) {
         // In the plane across the axis: (c - p) × n = 0.
         let across = Vector2::new(v.dot(n), -u.dot(n));
         let d = p - center;
