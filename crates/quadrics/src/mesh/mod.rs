@@ -2,9 +2,11 @@
 
 mod adjacency;
 mod geometry;
+mod working;
 
 pub use adjacency::{Adjacency, NONE};
 pub use geometry::Geometry;
+pub use working::Working;
 
 use crate::math::Point;
 
