@@ -5,9 +5,14 @@
 
 mod cone;
 mod cylinder;
+pub mod kind;
+pub mod moments;
+pub mod planarity;
 mod plane;
+pub mod quadrature;
 mod quadric;
 mod sphere;
+pub mod taubin;
 mod torus;
 
 pub use cone::Cone;
