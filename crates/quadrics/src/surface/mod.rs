@@ -6,12 +6,17 @@
 mod cone;
 mod cylinder;
 mod local;
+pub mod kind;
+pub mod moments;
+pub mod planarity;
 mod plane;
+pub mod quadrature;
 mod quadric;
 mod refine;
 pub mod select;
 mod sphere;
 pub mod start;
+pub mod taubin;
 mod torus;
 
 pub use cone::Cone;
