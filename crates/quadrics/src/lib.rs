@@ -9,6 +9,7 @@ pub mod mesh;
 pub mod options;
 pub mod partition;
 pub mod pipeline;
+pub mod render;
 pub mod result;
 pub mod surface;
 

@@ -1,0 +1,43 @@
+from collections.abc import Callable
+from typing import Any, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+class _Segmentation(TypedDict):
+    labels: NDArray[np.uint32]
+    regions: list[dict[str, Any]]
+    relations: list[dict[str, Any]]
+    noise: tuple[float, float]
+    repairs: list[tuple[str, int, str]]
+    energy: list[float]
+    timing: list[tuple[str, float]]
+
+def segment(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    options: dict[str, Any],
+    initial_labels: NDArray[np.uint32] | None = None,
+    progress: Callable[[str, float], object] | None = None,
+) -> _Segmentation: ...
+def default_options() -> dict[str, Any]: ...
+def distance(
+    kind: str, numbers: list[float], points: NDArray[np.float64]
+) -> NDArray[np.float64]: ...
+def normal(kind: str, numbers: list[float], points: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def project(
+    kind: str, numbers: list[float], points: NDArray[np.float64]
+) -> NDArray[np.float64]: ...
+def coefficients(kind: str, numbers: list[float]) -> list[float] | None: ...
+def render(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    colours: NDArray[np.uint8],
+    normals: NDArray[np.float64],
+    labels: NDArray[np.int32],
+    toward_eye: tuple[float, float, float],
+    width: int,
+    height: int,
+) -> NDArray[np.uint8]: ...
