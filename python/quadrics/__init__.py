@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from quadrics.mesh import Mesh, as_mesh, read
     from quadrics.options import Options
     from quadrics.result import Noise, Region, Relation, Repair, Result
-    from quadrics.segment import segment
+    from quadrics.run import segment
     from quadrics.surfaces import (
         Cone,
         Cylinder,
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 # In reading order: the main job, what goes in, what comes out, what may go wrong.
 _HOME = {
-    "segment": "segment",
+    "segment": "run",
     "Options": "options",
     "Mesh": "mesh",
     "as_mesh": "mesh",

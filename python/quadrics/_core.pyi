@@ -15,6 +15,16 @@ class _Segmentation(TypedDict):
     energy: list[float]
     timing: list[tuple[str, float]]
 
+class _Loaded(TypedDict):
+    positions: NDArray[np.float64]
+    faces: NDArray[np.uint32]
+    parent: NDArray[np.uint32] | None
+    face_count: int
+    units: str | None
+    repairs: list[tuple[str, int, str]]
+
+def read(extension: str, bytes: bytes, open: Callable[[str], bytes | None]) -> _Loaded: ...
+def inspect(positions: NDArray[np.float64], faces: NDArray[np.uint32]) -> dict[str, Any]: ...
 def segment(
     positions: NDArray[np.float64],
     faces: NDArray[np.uint32],

@@ -12,17 +12,16 @@ import time
 import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO
 
 from quadrics import _core
 from quadrics.errors import InputError
 from quadrics.mesh import Mesh, Source
 
 #: How compressed files begin, and what opens them.
-_PACKED: dict[bytes, Callable[[IO[bytes]], IO[bytes]]] = {
+_PACKED: dict[bytes, Callable[[io.BytesIO], io.BufferedIOBase]] = {
     b"\x1f\x8b": lambda file: gzip.GzipFile(fileobj=file),
-    b"BZh": lambda file: bz2.BZ2File(file),
-    b"\xfd7zXZ\x00": lambda file: lzma.LZMAFile(file),
+    b"BZh": bz2.BZ2File,
+    b"\xfd7zXZ\x00": lzma.LZMAFile,
 }
 _PACKED_SUFFIXES = (".gz", ".bz2", ".xz")
 #: Meshes shrink to a tenth or so; a file that grows beyond this is a bomb.
@@ -103,7 +102,7 @@ def _unpack(path: Path, content: bytes) -> bytes:
 
 
 def _beside(path: Path, name: str) -> bytes | None:
-    """A file that `path` refers to, from its own folder only."""
+    """Read a file that `path` refers to, from its own folder only."""
     try:
         folder = path.resolve().parent
         # Links are followed before the comparison: one may point out of the folder.

@@ -8,9 +8,7 @@ from numpy.typing import NDArray
 from quadrics.mesh import Mesh
 
 
-def labels_of_input(
-    mesh: Mesh, of_triangle: NDArray[np.int32], regions: int
-) -> NDArray[np.int32]:
+def labels_of_input(mesh: Mesh, of_triangle: NDArray[np.int32], regions: int) -> NDArray[np.int32]:
     """Give every polygon the label of most of its area; ties go to the lower label.
 
     A region that would vanish keeps the polygon in which it has most area.

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -10,6 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from quadrics import _core
 from quadrics.errors import InputError
 from quadrics.foreign import FOREIGN_MESHES, triangles_of
 
@@ -74,14 +77,17 @@ class Mesh:
         return float((used.max(axis=0) - used.min(axis=0)).max())
 
     def areas(self) -> NDArray[np.float64]:
-        """Areas of the triangles."""
-        return np.linalg.norm(_double_normals(self), axis=1) / 2
+        """Measure the triangles."""
+        area: NDArray[np.float64] = np.linalg.norm(_double_normals(self), axis=1) / 2
+        return area
 
     def normals(self) -> NDArray[np.float64]:
-        """Unit normals of the triangles; zero where a triangle has no area."""
+        """Give unit normals of the triangles; zero where a triangle has no area."""
         double = _double_normals(self)
         length = np.linalg.norm(double, axis=1, keepdims=True)
-        return np.divide(double, length, out=np.zeros_like(double), where=length > 0)
+        unit: NDArray[np.float64] = np.zeros_like(double)
+        np.divide(double, length, out=unit, where=length > 0)
+        return unit
 
 
 def as_mesh(source: MeshLike) -> Mesh:
@@ -168,3 +174,34 @@ def _indices(values: ArrayLike) -> NDArray[np.uint32]:
 def _double_normals(mesh: Mesh) -> NDArray[np.float64]:
     corners = mesh.vertices[mesh.faces]
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+
+
+def inspect(source: MeshLike) -> dict[str, Any]:
+    """Look at a mesh without segmenting it: counts, sizes, faults, and what would be repaired.
+
+    Lengths are in the unit of the mesh. `volume` is None where the mesh is not closed.
+
+    Examples
+    --------
+    >>> inspect(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))["border_edges"]
+    3
+    """
+    mesh = as_mesh(source)
+    with located(mesh):
+        seen = _core.inspect(mesh.vertices, mesh.faces)
+    names = ("kind", "count", "detail")
+    repairs = [*mesh.source.repairs, *seen.pop("repairs")]
+    head = {"path": mesh.source.path, "units": mesh.source.units, "sha256": mesh.source.sha256}
+    found = [dict(zip(names, repair, strict=True)) for repair in repairs]
+    return {**head, **seen, "faces": mesh.face_count, "repairs": found}
+
+
+@contextmanager
+def located(mesh: Mesh) -> Iterator[None]:
+    """Put the path of the mesh before the text of an input error."""
+    try:
+        yield
+    except InputError as error:
+        if mesh.source.path is None:
+            raise
+        raise InputError(f"{mesh.source.path}: {error}") from None

@@ -85,7 +85,9 @@ class Options:
             # A comparison with NaN is false, so NaN is refused too.
             if isinstance(value, bool) or not number or not low <= value <= high:
                 kind = "a whole number" if whole else "a number"
-                raise OptionError(f"{name} is {value!r}: it must be {kind} from {low:g} to {high:g}")
+                raise OptionError(
+                    f"{name} is {value!r}: it must be {kind} from {low:g} to {high:g}"
+                )
 
 
 _OPTIONAL = ("regions", "insertion_threshold")

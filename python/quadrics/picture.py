@@ -66,7 +66,7 @@ def _draw(
 
 
 def _surface_normals(result: Result) -> NDArray[np.float64]:
-    """Normals of the surfaces, not of the noisy faces: what was recognised is smooth."""
+    """Take normals of the surfaces, not of the noisy faces: what was recognised is smooth."""
     mesh = result.mesh
     normals = mesh.normals()
     order = np.argsort(result.triangle_labels, kind="stable")

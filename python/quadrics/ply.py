@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from quadrics.result import Result
 
 
+Column: TypeAlias = tuple[str, str] | tuple[str, str, int]
+
+
 def write_mesh(path: Path, mesh: Mesh) -> None:
     """Write vertices and triangles."""
     _write(path, mesh, [], [], [])
@@ -24,7 +27,7 @@ def write_coloured(path: Path, result: Result) -> None:
     """Write the triangles with the colour of their region and its number as `label`."""
     labels = result.triangle_labels
     names = ["uchar red", "uchar green", "uchar blue", "int label"]
-    fields = [("colour", "u1", 3), ("label", "<i4")]
+    fields: list[Column] = [("colour", "u1", 3), ("label", "<i4")]
     _write(path, result.mesh, names, fields, [region_colours(result)[labels], labels])
 
 
@@ -32,7 +35,7 @@ def _write(
     path: Path,
     mesh: Mesh,
     names: list[str],
-    fields: list[tuple[str, str] | tuple[str, str, int]],
+    fields: list[Column],
     columns: list[NDArray[np.generic]],
 ) -> None:
     # Single precision where it says the same, for the many programs that read nothing else.

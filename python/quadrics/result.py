@@ -145,7 +145,7 @@ def result_from(
     """Turn what the core returns into what the user holds."""
     of_triangle = found["labels"].astype(np.int32)
     labels = labels_of_input(mesh, of_triangle, len(found["regions"]))
-    counts = np.bincount(labels, minlength=len(found["regions"])) if labels.size else []
+    counts: NDArray[np.int64] = np.bincount(labels, minlength=len(found["regions"]))
     repairs = (*mesh.source.repairs, *found["repairs"])
     timing = {"read_s": mesh.source.read_s, "total_s": seconds, **dict(found["timing"])}
     return Result(
@@ -159,7 +159,7 @@ def result_from(
         options=options,
         mesh=mesh,
         triangle_labels=of_triangle,
-        units=units,
+        units=units or mesh.source.units,
     )
 
 

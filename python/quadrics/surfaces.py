@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +21,11 @@ Array: TypeAlias = NDArray[np.float64]
 class AnalyticSurface:
     """What every surface with parameters can be asked."""
 
-    type: str
+    if TYPE_CHECKING:
+
+        @property
+        def type(self) -> str:
+            """Its name in the result files."""
 
     @property
     def parameters(self) -> dict[str, Any]:
@@ -46,7 +50,7 @@ class AnalyticSurface:
         return _core.distance(*self._flat(), rows).reshape(shape[:-1])
 
     def normal(self, points: ArrayLike) -> Array:
-        """Unit normals at the feet of points; NaN where there is no answer, as on an axis."""
+        """Give unit normals at the feet of points; NaN where there is no answer, as on an axis."""
         rows, shape = _rows(points)
         return _core.normal(*self._flat(), rows).reshape(shape)
 

@@ -120,12 +120,11 @@ fn describe(py: Python<'_>, result: Segmentation) -> PyResult<Bound<'_, PyDict>>
     let dict = PyDict::new(py);
     let regions: PyResult<Vec<_>> = result.regions.iter().map(|r| region(py, r)).collect();
     let relations: PyResult<Vec<_>> = result.relations.iter().map(|r| relation(py, r)).collect();
-    let repairs = result.repairs.into_iter().map(|r| (r.kind, r.count, r.detail));
     dict.set_item("labels", result.labels.into_pyarray(py))?;
     dict.set_item("regions", PyList::new(py, regions?)?)?;
     dict.set_item("relations", PyList::new(py, relations?)?)?;
     dict.set_item("noise", (result.noise.position, result.noise.normal_deg))?;
-    dict.set_item("repairs", PyList::new(py, repairs.collect::<Vec<_>>())?)?;
+    dict.set_item("repairs", mesh::repairs(result.repairs))?;
     dict.set_item("energy", result.energy)?;
     dict.set_item("timing", result.timing)?;
     Ok(dict)

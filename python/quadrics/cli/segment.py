@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import json
 import re
 import sys
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from quadrics.options import CHOICES, WHOLE, Options
-
-if TYPE_CHECKING:
-    from quadrics.result import Result
 
 SUMMARY = "Recognise the surfaces of a mesh"
 EXAMPLES = """\
@@ -31,19 +29,18 @@ segmentation.ply (coloured) and segmentation.png. Lengths are in the unit of the
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the options; those of `Options` by their names and from its docstring."""
-    parser.add_argument("mesh", type=Path, help="STL, PLY, OBJ, OFF, GLB, glTF or 3MF, or one of "
-                        "them as .gz, .bz2 or .xz")  # fmt: skip
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FOLDER",
-                        help="folder for the results; made if it is not there")  # fmt: skip
-    parser.add_argument("--overwrite", action="store_true",
-                        help="replace an earlier result in that folder")  # fmt: skip
-    parser.add_argument("--initial-labels", type=Path, metavar="FILE.npy",
-                        help="start from these: one whole number per face of the input")  # fmt: skip
-    parser.add_argument("--units", metavar="UNIT",
-                        help="length unit of the mesh, such as mm; noted, nothing is converted")  # fmt: skip
-    parser.add_argument("--json", action="store_true",
-                        help="print segmentation.json on stdout instead of the table")  # fmt: skip
-    parser.add_argument("--quiet", action="store_true", help="no table and no progress")
+    add = parser.add_argument
+    formats = "STL, PLY, OBJ, OFF, GLB, glTF or 3MF, or one of them as .gz, .bz2 or .xz"
+    add("mesh", type=Path, help=formats)
+    where = "folder for the results; made if it is not there"
+    add("-o", "--output", type=Path, required=True, metavar="FOLDER", help=where)
+    add("--overwrite", action="store_true", help="replace an earlier result in that folder")
+    start = "start from these regions: one whole number per face of the input"
+    add("--initial-labels", type=Path, metavar="FILE.npy", help=start)
+    unit = "length unit of the mesh, such as mm; noted, nothing is converted"
+    add("--units", metavar="UNIT", help=unit)
+    add("--json", action="store_true", help="print segmentation.json instead of the table")
+    add("--quiet", action="store_true", help="no table and no progress")
     group = parser.add_argument_group("options of the method")
     described = _described()
     for field in fields(Options):
@@ -113,5 +110,7 @@ _whole.__name__ = "whole number"  # argparse names the type in its errors.
 
 def _described() -> dict[str, str]:
     """Descriptions of the fields, from the docstring of `Options`."""
-    text = re.sub(r"\n {8,}", " ", Options.__doc__ or "")
-    return dict(re.findall(r"^ {4}(\w+) : .*?  *([A-Z].*)\.$", text, re.MULTILINE))
+    # Python 3.13 takes the indentation out of docstrings, older ones leave it in.
+    text = inspect.cleandoc(Options.__doc__ or "")
+    found = re.findall(r"^(\w+) : .*\n((?: {4}.*\n?)+)", text, re.MULTILINE)
+    return {name: " ".join(lines.split()).removesuffix(".") for name, lines in found}

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from quadrics import _core
-from quadrics.errors import InputError, OptionError
-from quadrics.mesh import Mesh, MeshLike, as_mesh
+from quadrics.errors import OptionError
+from quadrics.mesh import Mesh, MeshLike, as_mesh, located
 from quadrics.options import Options
 from quadrics.result import Result, result_from
 
@@ -60,12 +60,8 @@ def segment(
     options = replace(options or Options(), **changes)
     mesh = as_mesh(source)
     start = None if initial_labels is None else _start(mesh, initial_labels)
-    try:
+    with located(mesh):
         found = _core.segment(mesh.vertices, mesh.faces, asdict(options), start, progress)
-    except InputError as error:
-        if mesh.source.path is None:
-            raise
-        raise InputError(f"{mesh.source.path}: {error}") from None
     return result_from(found, mesh, options, units, time.perf_counter() - started)
 
 
