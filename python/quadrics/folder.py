@@ -6,7 +6,7 @@ import json
 import os
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -57,14 +57,25 @@ def save(result: Result, folder: Path, *, overwrite: bool) -> Path:
     return folder
 
 
+def to_json(result: Result) -> str:
+    """`segmentation.json`: a line a region, so that people can read and compare it."""
+    fields = (f" {json.dumps(name)}: {_value(v)}" for name, v in result.to_dict().items())
+    return "{\n" + ",\n".join(fields) + "\n}\n"
+
+
+def _value(value: Any) -> str:
+    # A NaN is no JSON: better no file than one that other programs cannot read.
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return "[\n  " + ",\n  ".join(json.dumps(v, allow_nan=False) for v in value) + "\n ]"
+    return json.dumps(value, allow_nan=False)
+
+
 def _write(result: Result, folder: Path) -> None:
     from quadrics.picture import write_picture
     from quadrics.ply import write_coloured
 
     np.save(folder / "labels.npy", result.labels, allow_pickle=False)
-    # A NaN is no JSON: better no file than one that other programs cannot read.
-    text = json.dumps(result.to_dict(), indent=1, allow_nan=False)
-    (folder / "segmentation.json").write_text(text + "\n", encoding="utf-8")
+    (folder / "segmentation.json").write_text(to_json(result), encoding="utf-8")
     write_coloured(folder / "segmentation.ply", result)
     write_picture(folder / "segmentation.png", result)
 

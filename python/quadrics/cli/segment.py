@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import inspect
-import json
 import re
 import sys
 from dataclasses import fields
@@ -74,8 +73,7 @@ def run(arguments: argparse.Namespace) -> None:
         progress("write", 0.0)
         saved = result.save(arguments.output, overwrite=arguments.overwrite)
     if arguments.json:
-        json.dump(result.to_dict(), sys.stdout, indent=1, allow_nan=False)
-        print()
+        sys.stdout.write(folder.to_json(result))
     elif not arguments.quiet:
         from quadrics.cli.table import print_result
 
