@@ -4,6 +4,7 @@
 
 pub mod context;
 pub mod error;
+pub mod format;
 pub mod math;
 pub mod mesh;
 pub mod options;
