@@ -25,6 +25,13 @@ class _Loaded(TypedDict):
 
 def read(extension: str, bytes: bytes, open: Callable[[str], bytes | None]) -> _Loaded: ...
 def inspect(positions: NDArray[np.float64], faces: NDArray[np.uint32]) -> dict[str, Any]: ...
+def write(extension: str, positions: NDArray[np.float64], faces: NDArray[np.uint32]) -> bytes: ...
+def write_segmentation(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    labels: NDArray[np.int32],
+    colours: NDArray[np.uint8],
+) -> bytes: ...
 def segment(
     positions: NDArray[np.float64],
     faces: NDArray[np.uint32],

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from quadrics import _core
 from quadrics.errors import OutputError
 
 if TYPE_CHECKING:
@@ -71,12 +72,15 @@ def _value(value: Any) -> str:
 
 
 def _write(result: Result, folder: Path) -> None:
-    from quadrics.picture import write_picture
-    from quadrics.ply import write_coloured
+    from quadrics.picture import region_colours, write_picture
 
     np.save(folder / "labels.npy", result.labels, allow_pickle=False)
     (folder / "segmentation.json").write_text(to_json(result), encoding="utf-8")
-    write_coloured(folder / "segmentation.ply", result)
+    mesh, labels = result.mesh, result.triangle_labels
+    coloured = _core.write_segmentation(
+        mesh.vertices, mesh.faces, labels, region_colours(result)[labels]
+    )
+    (folder / "segmentation.ply").write_bytes(coloured)
     write_picture(folder / "segmentation.png", result)
 
 

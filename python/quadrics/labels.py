@@ -11,7 +11,8 @@ from quadrics.mesh import Mesh
 def labels_of_input(mesh: Mesh, of_triangle: NDArray[np.int32], regions: int) -> NDArray[np.int32]:
     """Give every polygon the label of most of its area; ties go to the lower label.
 
-    A region that would vanish keeps the polygon in which it has most area.
+    A region that would vanish keeps the polygon in which it has most area, unless that is the
+    last one of another region.
     """
     if mesh.parent is None or regions == 0:
         return of_triangle
@@ -25,5 +26,8 @@ def labels_of_input(mesh: Mesh, of_triangle: NDArray[np.int32], regions: int) ->
     labels[polygon[order]] = label[order]
     for region in np.setdiff1d(np.unique(label), np.unique(labels)):
         own = np.nonzero(label == region)[0]
-        labels[polygon[own[np.argmax(area[own])]]] = region
+        counts = np.bincount(labels, minlength=regions)
+        spared = own[counts[labels[polygon[own]]] > 1]
+        if spared.size:
+            labels[polygon[spared[np.argmax(area[spared])]]] = region
     return labels

@@ -90,11 +90,16 @@ class Result:
     timing: dict[str, float]
     options: Options
     mesh: Mesh
-    triangle_labels: NDArray[np.int32]
     units: str | None = None
 
     def __repr__(self) -> str:
         return f"Result(regions={len(self.regions)}, faces={len(self.labels)})"
+
+    @property
+    def triangle_labels(self) -> NDArray[np.int32]:
+        """The label of every triangle of `mesh`: of the face that it was cut from."""
+        parent = self.mesh.parent
+        return self.labels if parent is None else self.labels[parent]
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the labels, as `segmentation.json` holds it."""
@@ -158,7 +163,6 @@ def result_from(
         timing=timing,
         options=options,
         mesh=mesh,
-        triangle_labels=of_triangle,
         units=units or mesh.source.units,
     )
 

@@ -15,6 +15,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(mesh::read, module)?)?;
     module.add_function(wrap_pyfunction!(mesh::inspect, module)?)?;
+    module.add_function(wrap_pyfunction!(mesh::write, module)?)?;
+    module.add_function(wrap_pyfunction!(mesh::write_segmentation, module)?)?;
     module.add_function(wrap_pyfunction!(segment::segment, module)?)?;
     module.add_function(wrap_pyfunction!(segment::default_options, module)?)?;
     module.add_function(wrap_pyfunction!(surface::distance, module)?)?;

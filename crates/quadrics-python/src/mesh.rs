@@ -1,10 +1,10 @@
 //! Meshes: NumPy arrays to the core's and back.
 
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use quadrics::math::Point;
 use quadrics::result::Repair;
 use quadrics::{Mesh, format, mesh};
@@ -87,6 +87,46 @@ pub fn inspect<'py>(
     dict.set_item("median_edge", seen.median_edge)?;
     dict.set_item("repairs", repairs(seen.repairs))?;
     Ok(dict)
+}
+
+/// The bytes of a mesh file in the format that `extension` names.
+#[pyfunction]
+pub fn write<'py>(
+    py: Python<'py>,
+    extension: &str,
+    positions: PyReadonlyArray2<'py, f64>,
+    faces: PyReadonlyArray2<'py, u32>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let mesh = mesh_from(&positions, &faces)?;
+    let bytes = py.detach(|| format::write(extension, &mesh));
+    Ok(PyBytes::new(py, &bytes.map_err(|error| to_python(py, &error))?))
+}
+
+/// The bytes of a PLY with a label and a colour on every face.
+#[pyfunction]
+pub fn write_segmentation<'py>(
+    py: Python<'py>,
+    positions: PyReadonlyArray2<'py, f64>,
+    faces: PyReadonlyArray2<'py, u32>,
+    labels: PyReadonlyArray1<'py, i32>,
+    colours: PyReadonlyArray2<'py, u8>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let mesh = mesh_from(&positions, &faces)?;
+    let (labels, colours) = (labels.as_array().to_vec(), colours_from(&colours)?);
+    if labels.len() != mesh.faces.len() || colours.len() != mesh.faces.len() {
+        return Err(PyValueError::new_err("one label and one colour a face are needed"));
+    }
+    let bytes = py.detach(|| format::write_segmentation(&mesh, &labels, &colours));
+    Ok(PyBytes::new(py, &bytes))
+}
+
+/// Red, green and blue, a row a face.
+pub fn colours_from(colours: &PyReadonlyArray2<u8>) -> PyResult<Vec<[u8; 3]>> {
+    let colours = colours.as_array();
+    if colours.ncols() != 3 {
+        return Err(PyValueError::new_err("colours must be (m, 3)"));
+    }
+    Ok(colours.rows().into_iter().map(|c| [c[0], c[1], c[2]]).collect())
 }
 
 /// Repairs as plain values.

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use quadrics::math::Vector;
 use quadrics::render::View;
 
-use crate::mesh::mesh_from;
+use crate::mesh::{colours_from, mesh_from};
 
 /// Draws a mesh, one colour, normal and label a face: pixels (height, width, 3).
 #[pyfunction]
@@ -24,8 +24,7 @@ pub fn render<'py>(
     height: usize,
 ) -> PyResult<Bound<'py, PyArray3<u8>>> {
     let mesh = mesh_from(&positions, &faces)?;
-    let colours: Vec<[u8; 3]> =
-        colours.as_array().rows().into_iter().map(|c| [c[0], c[1], c[2]]).collect();
+    let colours = colours_from(&colours)?;
     let normals: Vec<Vector> =
         normals.as_array().rows().into_iter().map(|n| Vector::new(n[0], n[1], n[2])).collect();
     let labels = labels.as_array().to_vec();
