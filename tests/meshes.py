@@ -22,7 +22,8 @@ def box(n: int = 6, sides: tuple[float, float, float] = (3.0, 2.0, 1.0)) -> Arra
     cell = np.arange(n)[:, None] * (n + 1) + np.arange(n)
     a, b, c, d = (cell + step for step in (0, n + 1, n + 2, 1))
     square = np.stack([a, b, c, a, c, d], axis=-1).reshape(-1, 3)
-    points, faces = [], []
+    points: list[NDArray[np.float64]] = []
+    faces: list[NDArray[np.int64]] = []
     for axis in range(3):
         for side in (0, 1):
             corners = np.zeros((len(u), 3))
@@ -46,10 +47,13 @@ def rod(n: int = 48, m: int = 12, radius: float = 1.0, length: float = 4.0) -> A
     for level, base in ((0.0, 0), (length, m * n)):
         half = np.column_stack([ring * radius / 2, np.full(n, level)])
         points += [half, np.array([[0.0, 0.0, level]])]
-        j, after = np.arange(n), (np.arange(n) + 1) % n
+        at, after = np.arange(n), (np.arange(n) + 1) % n
         inner, middle = k, np.full(n, k + n)
-        caps = [(base + j, inner + j, base + after), (base + after, inner + j, inner + after)]
-        caps.append((inner + j, middle, inner + after))
+        caps = [
+            (base + at, inner + at, base + after),
+            (base + after, inner + at, inner + after),
+            (inner + at, middle, inner + after),
+        ]
         faces += [np.column_stack(c if level == 0 else c[::-1]) for c in caps]
         k += n + 1
     return np.concatenate(points), np.concatenate(faces)
@@ -161,8 +165,10 @@ def threemf(text: str | None, **entries: bytes) -> bytes:
     types = (
         '<?xml version="1.0" encoding="UTF-8"?>'
         '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">'
-        '<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
-        '<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
+        '<Default Extension="rels" ContentType="'
+        'application/vnd.openxmlformats-package.relationships+xml"/>'
+        '<Default Extension="model" ContentType="'
+        'application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>'
         "</Types>"
     )
     relations = (

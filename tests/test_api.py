@@ -12,10 +12,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import jsonschema
-import meshes
 import numpy as np
 import pytest
 
+import meshes
 import quadrics
 from quadrics import _core
 from quadrics.labels import labels_of_input

@@ -10,11 +10,11 @@ import sys
 import time
 from pathlib import Path
 
-import meshes
 import numpy as np
 import pytest
-from conftest import Run
 
+import meshes
+from conftest import Run
 from quadrics.cli.main import COMMANDS, main
 
 
@@ -169,7 +169,7 @@ def test_help_loads_nothing_heavy() -> None:
 def test_a_reader_that_stops_early_is_no_error(part: Path) -> None:
     command = f"{sys.executable} -m quadrics info {part} | head -1"
     done = subprocess.run(
-        ["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=False
+        ["/bin/bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, "")
 

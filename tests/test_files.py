@@ -14,10 +14,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-import meshes
 import numpy as np
 import pytest
 
+import meshes
 import quadrics
 from quadrics.cli.main import main
 

@@ -4,6 +4,21 @@ from typing import Any, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "__version__",
+    "coefficients",
+    "default_options",
+    "distance",
+    "inspect",
+    "normal",
+    "project",
+    "read",
+    "render",
+    "segment",
+    "write",
+    "write_segmentation",
+]
+
 __version__: str
 
 class _Segmentation(TypedDict):
