@@ -20,7 +20,7 @@ WIDTH, HEIGHT = 900, 800
 #: From above, the front and the right: shows three sides of a box.
 TOWARD_EYE = (0.55, -0.75, 0.5)
 #: Of the scan, and of regions without a surface.
-GREY = (190, 192, 196)
+GREY = (205, 207, 211)
 
 
 def write_picture(path: Path, result: Result) -> None:
@@ -49,7 +49,7 @@ def region_colours(result: Result) -> NDArray[np.uint8]:
 def _colour(number: int) -> tuple[int, int, int]:
     # Turning by the golden ratio never comes near a hue that was used shortly before.
     hue = (number * 0.618033988749895 + 0.08) % 1
-    red, green, blue = colorsys.hls_to_rgb(hue, (0.62, 0.5, 0.72)[number % 3], 0.62)
+    red, green, blue = colorsys.hls_to_rgb(hue, (0.66, 0.54, 0.76)[number % 3], 0.62)
     return round(255 * red), round(255 * green), round(255 * blue)
 
 

@@ -153,7 +153,7 @@ impl Camera {
     /// Colour of a face under a light at the eye; both sides are lit, scans are often open.
     fn light(&self, normal: &Vector, colour: [u8; 3]) -> [f64; 3] {
         let sideways = normal.dot(&(self.down * -0.35 + self.right * -0.25)).max(-0.3);
-        let brightness = (0.35 + 0.6 * normal.dot(&self.eye).abs() + 0.25 * sideways).min(1.0);
+        let brightness = (0.42 + 0.58 * normal.dot(&self.eye).abs() + 0.25 * sideways).min(1.0);
         colour.map(|channel| f64::from(channel) * brightness)
     }
 }
