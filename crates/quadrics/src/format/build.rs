@@ -112,11 +112,11 @@ impl Builder {
         let mut repairs = Vec::new();
         let mut note = |kind, count, what: &str| {
             if count > 0 {
-                repairs.push(Repair { kind, count, detail: format!("{count} {what}") });
+                repairs.push(Repair { kind, count, detail: format!("{what}: {count}") });
             }
         };
-        note("polygons", self.polygons, "faces of more than three corners were cut into triangles");
-        note("stunted_faces", self.stunted, "faces of fewer than three corners have no area");
+        note("polygons", self.polygons, "faces of more than three corners, cut into triangles");
+        note("stunted_faces", self.stunted, "faces of fewer than three corners, without area");
         Ok(Loaded {
             mesh: Mesh { positions: self.positions, faces: self.faces },
             input_faces: InputFaces { of_triangle: self.parent, count: self.count },

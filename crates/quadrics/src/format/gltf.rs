@@ -48,7 +48,7 @@ pub(super) fn read(json: &[u8], binary: Option<&[u8]>, open: &mut Open) -> Resul
     // The format prescribes it.
     loaded.units = Some("m".into());
     if passed_over > 0 {
-        let detail = format!("{passed_over} primitives of points or lines were passed over");
+        let detail = format!("primitives of points or lines, passed over: {passed_over}");
         loaded.repairs.push(Repair { kind: "not_triangles", count: passed_over, detail });
     }
     Ok(loaded)

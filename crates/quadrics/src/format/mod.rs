@@ -52,6 +52,28 @@ pub struct InputFaces {
     pub count: usize,
 }
 
+impl InputFaces {
+    /// Labels of the file's faces from those of its triangles: of each face the label of most area, and
+    /// the least of several such.
+    pub fn labels(&self, of_triangle: &[u32], areas: &[f64]) -> Vec<u32> {
+        let mut labels = Vec::with_capacity(self.count);
+        let mut first = 0;
+        let mut pieces = Vec::new();
+        for same in self.of_triangle.chunk_by(|one, other| one == other) {
+            pieces.clear();
+            pieces.extend((first..first + same.len()).map(|t| (of_triangle[t], areas[t])));
+            pieces.sort_by_key(|piece| piece.0);
+            let area = |label: &[(u32, f64)]| label.iter().map(|piece| piece.1).sum::<f64>();
+            let per_label = pieces.chunk_by(|one, other| one.0 == other.0);
+            let most =
+                per_label.reduce(|best, next| if area(next) > area(best) { next } else { best });
+            labels.extend(most.map(|pieces| pieces[0].0));
+            first += same.len();
+        }
+        labels
+    }
+}
+
 /// Reads a mesh. `extension` is that of the file's name, in any case and without the dot; where the
 /// content says plainly that it is another format, the content is believed.
 ///
@@ -72,7 +94,8 @@ pub fn read(extension: &str, bytes: &[u8], open: &mut Open) -> Result<Loaded> {
     }
 }
 
-/// An [`Error::Format`].
-fn error(format: &'static str, reason: impl Into<String>) -> Error {
-    Error::Format { format, reason: reason.into() }
+/// An [`Error::Format`] on one line, even where it quotes the file: a terminal obeys control characters.
+fn error(format: &'static str, reason: impl AsRef<str>) -> Error {
+    let plain = |letter: char| if letter.is_control() { '?' } else { letter };
+    Error::Format { format, reason: reason.as_ref().chars().take(300).map(plain).collect() }
 }

@@ -44,7 +44,7 @@ fn logical_line<'a>(scanner: &mut Scanner<'a>) -> Option<Cow<'a, [u8]>> {
     let mut line = Cow::Borrowed(scanner.line()?);
     loop {
         // Looked for first: a comment may end in the backslash of a folder's name.
-        if let Some(comment) = line.iter().position(|&byte| byte == b'#') {
+        if let Some(comment) = comment_start(&line) {
             match &mut line {
                 Cow::Borrowed(line) => *line = &line[..comment],
                 Cow::Owned(line) => line.truncate(comment),
@@ -60,6 +60,12 @@ fn logical_line<'a>(scanner: &mut Scanner<'a>) -> Option<Cow<'a, [u8]>> {
             None => return Some(line),
         }
     }
+}
+
+fn comment_start(line: &[u8]) -> Option<usize> {
+    let mut marks = (0..line.len()).filter(|&i| line[i] == b'#');
+    // `1.#QNAN` is what Windows wrote for NaN: cut at its mark it would pass for 1.
+    marks.find(|&i| i == 0 || line[i - 1] != b'.')
 }
 
 /// Three numbers; a weight or a colour may follow.

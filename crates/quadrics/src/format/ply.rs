@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use header::{Element, Encoding, Kind, Property, Scalar};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Loaded> {
-    let (header, body) = header::parse(bytes)?;
+    let (header, scanner) = header::parse(bytes)?;
     let find = |name: &str| header.elements.iter().find(|element| element.name == name);
     let Some(vertices) = find("vertex") else {
         return Err(error("PLY", "the header has no element vertex: is this a mesh?"));
@@ -23,9 +23,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Loaded> {
         return Err(error("PLY", "triangle strips are not read: export the mesh with faces"));
     }
     let mut rows = match header.encoding {
-        Encoding::Ascii => Rows::Text(Scanner::new("PLY", body)),
-        Encoding::Little => Rows::Binary { bytes, pos: bytes.len() - body.len(), big: false },
-        Encoding::Big => Rows::Binary { bytes, pos: bytes.len() - body.len(), big: true },
+        Encoding::Ascii => Rows::Text(scanner),
+        Encoding::Little => Rows::Binary { bytes, pos: scanner.position(), big: false },
+        Encoding::Big => Rows::Binary { bytes, pos: scanner.position(), big: true },
     };
     for element in &header.elements {
         check_room(element, &rows, header.encoding)?;

@@ -66,6 +66,10 @@ fn read_binary(bytes: &[u8]) -> Result<Loaded> {
             ),
         ));
     }
+    if count == 0 && room > 0 {
+        let what = format!("the header claims no triangles, but {room} follow: export it again");
+        return Err(error("STL", what));
+    }
     if count > MOST_FACES {
         return Err(error("STL", format!("more than {MOST_FACES} triangles: split the mesh")));
     }
@@ -78,7 +82,7 @@ fn read_binary(bytes: &[u8]) -> Result<Loaded> {
     let mut repairs = Vec::new();
     let rest = body.len() - TRIANGLE * count;
     if rest > 0 {
-        let detail = format!("{rest} bytes after the last triangle were passed over");
+        let detail = format!("bytes after the last triangle, passed over: {rest}");
         repairs.push(Repair { kind: "trailing_bytes", count: rest, detail });
     }
     Ok(Loaded {
@@ -101,18 +105,18 @@ fn read_ascii(bytes: &[u8]) -> Result<Loaded> {
     let mut corners: Vec<u32> = Vec::new();
     let mut inside = false;
     while let Some(word) = scanner.word() {
-        match word.to_ascii_lowercase().as_slice() {
+        match &lower(word) {
             // Names are free text: "facet" and "vertex" among them.
-            b"solid" | b"endsolid" => {
+            b"solid\0\0\0" | b"endsolid" => {
                 scanner.line();
             }
-            b"facet" if !inside => inside = true,
-            b"normal" | b"outer" if inside => skip_values(&mut scanner),
-            b"vertex" if inside => {
+            b"facet\0\0\0" if !inside => inside = true,
+            b"normal\0\0" | b"outer\0\0\0" if inside => skip_values(&mut scanner),
+            b"vertex\0\0" if inside => {
                 let position = [scanner.number()?, scanner.number()?, scanner.number()?];
                 corners.push(welder.add(Point::from(position)));
             }
-            b"endloop" if inside => {}
+            b"endloop\0" if inside => {}
             b"endfacet" if inside => {
                 builder.polygon(&corners)?;
                 corners.clear();
@@ -126,6 +130,16 @@ fn read_ascii(bytes: &[u8]) -> Result<Loaded> {
     }
     builder.positions = welder.into_positions();
     builder.finish()
+}
+
+/// A keyword in lower case, filled up with zeros to the length of the longest; no keyword is longer.
+fn lower(word: &[u8]) -> [u8; 8] {
+    let mut lower = [0; 8];
+    if let Some(start) = lower.get_mut(..word.len()) {
+        start.copy_from_slice(word);
+    }
+    lower.make_ascii_lowercase();
+    lower
 }
 
 /// The normal, whose numbers nobody needs (and which may be NaN), or `loop`.

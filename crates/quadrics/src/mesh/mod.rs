@@ -1,6 +1,7 @@
 //! Triangle meshes: positions and faces, and what follows from them alone.
 
 mod adjacency;
+mod caps;
 mod edges;
 mod geometry;
 mod inspect;

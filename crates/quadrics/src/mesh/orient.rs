@@ -137,7 +137,7 @@ fn spread(mesh: &Mesh, twins: &[u32], census: &mut Census) -> (Vec<Component>, V
                 }
                 // Neighbours agree when they run along their edge in opposite directions.
                 let agree = ends(&mesh.faces, half_edge).0 != ends(&mesh.faces, twin).0;
-                let wanted = flip[face as usize] != !agree;
+                let wanted = flip[face as usize] == agree;
                 let neighbour = twin as usize / 3;
                 if !seen[neighbour] {
                     seen[neighbour] = true;

@@ -1,10 +1,12 @@
 //! From the mesh as it came to one that every later station can trust, with a list of what was done.
 //!
 //! Exactly coincident vertices are welded; faces without area and faces that repeat another are left
-//! out; the winding is made consistent. Nothing moves, and nothing that the input shows is filled in.
+//! out, their neighbours split where that would leave a slit; the winding is made consistent. Nothing
+//! moves, and no hole is filled.
 
 use rayon::prelude::*;
 
+use super::caps::split_at_caps;
 use super::orient::{Census, orient};
 use super::substitute::substitutes;
 use super::validate::{is_usable, validate};
@@ -19,7 +21,7 @@ use crate::result::Repair;
 pub struct Repaired {
     /// No coincident or unused vertices, no flat or repeated faces; neighbours wind alike.
     pub mesh: Mesh,
-    /// The input face of every face of `mesh`, ascending.
+    /// The input face of every face of `mesh`; one that was split has two.
     pub parent: Vec<u32>,
     /// For every input face the face of `mesh` whose label it takes: itself, where it was kept; for a
     /// repeated face its twin; for a flat one a neighbour.
@@ -37,14 +39,18 @@ pub struct Repaired {
 pub fn repair(mesh: &Mesh) -> Result<Repaired> {
     validate(mesh)?;
     let mut repairs = Vec::new();
-    let welded = weld(mesh, &mut repairs);
-    let flat = flat_faces(&welded);
+    let mut welded = weld(mesh, &mut repairs);
+    let mut flat = flat_faces(&welded);
+    let zero_area = flat.iter().filter(|flat| **flat).count();
+    let owner = split_at_caps(&mut welded, &mut flat);
+    let split = zero_area - flat.iter().filter(|flat| **flat).count();
     let twin = twins(&welded, &flat);
     let kept = |face: &u32| !flat[*face as usize] && twin[*face as usize] == NONE;
-    let parent: Vec<u32> = (0..mesh.faces.len() as u32).filter(kept).collect();
-    note_dropped(&flat, &twin, &mut repairs);
-    let representative = substitutes(&welded, &parent, &twin);
-    let mut mesh = part(welded, &parent);
+    let kept: Vec<u32> = (0..mesh.faces.len() as u32).filter(kept).collect();
+    note_dropped(zero_area, split, &twin, &mut repairs);
+    let representative = substitutes(&welded, &kept, &twin);
+    let parent = kept.iter().map(|&face| owner[face as usize]).collect();
+    let mut mesh = part(welded, &kept);
     let census = orient(&mut mesh);
     note_census(&census, &mut repairs);
     Ok(Repaired { mesh, parent, representative, repairs, census })
@@ -79,10 +85,10 @@ fn weld(mesh: &Mesh, repairs: &mut Vec<Repair>) -> Mesh {
         repairs,
         "coincident_vertices",
         coincident,
-        "vertices at the place of another were welded",
+        "vertices at the place of another, welded to it",
     );
-    note(repairs, "unreferenced_vertices", unused, "vertices that no face uses were left out");
-    note(repairs, "not_finite_vertices", unusable, "of the unused vertices are NaN or infinite");
+    note(repairs, "unreferenced_vertices", unused, "vertices that no face uses, left out");
+    note(repairs, "not_finite_vertices", unusable, "unused vertices that are NaN or infinite");
     let faces = mesh.faces.iter().map(|corners| corners.map(|v| number[v as usize])).collect();
     Mesh { positions: welder.into_positions(), faces }
 }
@@ -141,51 +147,46 @@ fn part(mesh: Mesh, faces: &[u32]) -> Mesh {
     Mesh { positions, faces }
 }
 
-fn note_dropped(flat: &[bool], twin: &[u32], repairs: &mut Vec<Repair>) {
-    let flat = flat.iter().filter(|flat| **flat).count();
+fn note_dropped(zero_area: usize, split: usize, twin: &[u32], repairs: &mut Vec<Repair>) {
     let repeated = twin.iter().filter(|&&twin| twin != NONE).count();
     note(
         repairs,
         "zero_area_faces",
-        flat,
-        "faces without area were left out and take a neighbour's label",
+        zero_area,
+        "faces without area, which take a neighbour's label",
     );
+    note(repairs, "split_faces", split, "faces split at the middle corner of one without area");
     note(
         repairs,
         "duplicate_faces",
         repeated,
-        "faces on the vertices of an earlier one take its label",
+        "faces on the vertices of an earlier one, which take its label",
     );
 }
 
 fn note_census(census: &Census, repairs: &mut Vec<Repair>) {
-    note(repairs, "flipped_faces", census.flipped, "faces were turned to agree with the others");
+    note(repairs, "flipped_faces", census.flipped, "faces turned to agree with the others");
     note(
         repairs,
         "unorientable_edges",
         census.unorientable,
-        "edges have neighbours that cannot be wound alike",
+        "edges whose two faces cannot be wound alike",
     );
     note(
         repairs,
         "non_manifold_edges",
         census.non_manifold,
-        "edges belong to more than two faces; no region grows across them",
+        "edges of more than two faces, which no region crosses",
     );
-    note(repairs, "border_edges", census.border, "edges belong to one face only: the mesh is open");
+    note(repairs, "border_edges", census.border, "edges of one face only: the mesh is open");
     if census.components > 1 {
-        note(
-            repairs,
-            "components",
-            census.components,
-            "separate components, segmented side by side",
-        );
+        note(repairs, "components", census.components, "separate components");
     }
 }
 
 fn note(repairs: &mut Vec<Repair>, kind: &'static str, count: usize, what: &str) {
     if count > 0 {
-        repairs.push(Repair { kind, count, detail: format!("{count} {what}") });
+        repairs.push(Repair { kind, count, detail: format!("{what}: {count}") });
     }
 }
 

@@ -144,7 +144,7 @@ pub const GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 5, "type": "VEC3"},
                   {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
                   {"bufferView": 1, "byteOffset": 12, "componentType": 5123, "count": 4, "type": "SCALAR"}],
-    "bufferViews": [{"buffer": 0, "byteLength": 72, "byteStride": 16},
+    "bufferViews": [{"buffer": 0, "byteLength": 76, "byteStride": 16},
                     {"buffer": 0, "byteOffset": 80, "byteLength": 20}],
     "buffers": [{"byteLength": 100URI}]}"#;
 

@@ -6,10 +6,13 @@ use quadrics::math::Point;
 use crate::fixtures::{self, expected, model, threemf, zipped};
 use crate::{read, triangles};
 
+/// The same triangles, beginning at whichever corner, within the rounding of the fixtures.
 fn near(one: &[[[f64; 3]; 3]], other: &[[[f64; 3]; 3]]) -> bool {
     let distance = |a: &[f64; 3], b: &[f64; 3]| (Point::from(*a) - Point::from(*b)).norm();
-    one.len() == other.len()
-        && one.iter().flatten().zip(other.iter().flatten()).all(|(a, b)| distance(a, b) < 1e-6)
+    let same = |one: &[[f64; 3]; 3], other: &[[f64; 3]; 3]| {
+        (0..3).any(|turn| (0..3).all(|i| distance(&one[i], &other[(i + turn) % 3]) < 1e-6))
+    };
+    one.len() == other.len() && one.iter().zip(other).all(|(one, other)| same(one, other))
 }
 
 #[test]
@@ -63,6 +66,13 @@ fn a_polygon_is_a_fan_and_remembers_its_face() {
         let kinds: Vec<_> = loaded.repairs.iter().map(|r| (r.kind, r.count)).collect();
         assert_eq!(kinds, [("polygons", 2), ("stunted_faces", 1)]);
     }
+}
+
+#[test]
+fn a_face_of_the_file_takes_the_label_of_most_of_its_area() {
+    let of_triangle = vec![0, 1, 1, 1, 2, 2];
+    let faces = format::InputFaces { of_triangle, count: 3 };
+    assert_eq!(faces.labels(&[9, 4, 5, 4, 8, 7], &[0.0, 1.0, 1.5, 1.0, 2.0, 2.0]), [9, 4, 7]);
 }
 
 #[test]

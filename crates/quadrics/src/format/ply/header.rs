@@ -114,8 +114,8 @@ impl Scalar {
     }
 }
 
-/// The header and what follows it.
-pub fn parse(bytes: &[u8]) -> Result<(Header, &[u8])> {
+/// The header, and a scanner that stands behind it.
+pub fn parse(bytes: &[u8]) -> Result<(Header, Scanner<'_>)> {
     let mut scanner = Scanner::new("PLY", bytes);
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
@@ -145,7 +145,7 @@ pub fn parse(bytes: &[u8]) -> Result<(Header, &[u8])> {
     let Some(encoding) = encoding else {
         return Err(error("PLY", "the header does not name a format: export the mesh again"));
     };
-    Ok((Header { encoding, elements }, &bytes[scanner.position()..]))
+    Ok((Header { encoding, elements }, scanner))
 }
 
 fn parse_encoding(scanner: &mut Scanner) -> Result<Encoding> {

@@ -76,6 +76,7 @@ impl<'a> Package<'a> {
         ));
         reader.config_mut().expand_empty_elements = true;
         let mut buffer = Vec::new();
+        let mut open_elements = 0_i64;
         loop {
             buffer.clear();
             let event = reader.read_event_into(&mut buffer);
@@ -83,11 +84,22 @@ impl<'a> Package<'a> {
             let position = reader.buffer_position();
             match event {
                 _ if left == 0 => return Err(bomb(&shown, budget)),
+                Ok(Event::Eof) if open_elements > 0 => {
+                    let what = format!("{shown} ends after {position} bytes, within an element");
+                    return Err(error("3MF", format!("{what}; was the file cut off?")));
+                }
                 Ok(Event::Eof) => {
                     self.budget = left.min(budget);
                     return Ok(());
                 }
-                Ok(event) => take(&event, position)?,
+                Ok(event) => {
+                    match event {
+                        Event::Start(_) => open_elements += 1,
+                        Event::End(_) => open_elements -= 1,
+                        _ => {}
+                    }
+                    take(&event, position)?;
+                }
                 Err(cause) => {
                     let what =
                         format!("byte {position} of {shown}: {cause}; was the file cut off?");

@@ -165,3 +165,50 @@ fn a_moebius_strip_is_reported_and_kept() {
     let repaired = repair(&Mesh { positions, faces: faces.collect() }).unwrap();
     assert_eq!((count(&repaired, "unorientable_edges"), repaired.mesh.faces.len()), (1, 18));
 }
+
+#[test]
+fn a_row_of_caps_does_not_leave_a_slit() {
+    // Above the x axis one triangle, below it four; between them three faces without area.
+    let on_axis = (0..5).map(|i| Point::new(f64::from(i), 0.0, 0.0));
+    let positions =
+        on_axis.chain([Point::new(2.0, 3.0, 0.0), Point::new(2.0, -3.0, 0.0)]).collect();
+    let mut faces = vec![[0, 4, 5], [0, 3, 4], [0, 1, 3], [1, 2, 3]];
+    faces.extend((0..4).map(|i| [i + 1, i, 6]));
+    let repaired = repair(&Mesh { positions, faces }).unwrap();
+    assert_eq!((count(&repaired, "zero_area_faces"), count(&repaired, "split_faces")), (3, 3));
+    assert_eq!((count(&repaired, "border_edges"), count(&repaired, "flipped_faces")), (4, 0));
+    assert_eq!(repaired.parent, [0, 0, 0, 0, 4, 5, 6, 7]);
+    assert_eq!(repaired.representative, (0..8).collect::<Vec<_>>());
+    let area: f64 = crate::mesh::Geometry::new(&repaired.mesh).areas.iter().sum();
+    assert_eq!(area, 12.0);
+}
+
+#[test]
+fn any_soup_is_repaired_and_every_face_gets_a_label() {
+    use rand::Rng;
+    let mut rng = rand_pcg::Pcg64Mcg::new(5);
+    let mut below = |bound: u64| (rng.next_u64() % bound) as u32;
+    for _ in 0..3000 {
+        // Few places on few lines: full of flat, repeated and non-manifold faces.
+        let positions: Vec<_> =
+            (0..9).map(|_| Point::new(below(3).into(), below(3).into(), below(2).into())).collect();
+        let faces: Vec<_> = (0..1 + below(24)).map(|_| [below(9), below(9), below(9)]).collect();
+        let Ok(repaired) = repair(&Mesh { positions, faces: faces.clone() }) else { continue };
+        let mesh = &repaired.mesh;
+        assert_eq!(
+            (repaired.parent.len(), repaired.representative.len()),
+            (mesh.faces.len(), faces.len())
+        );
+        assert!(repaired.representative.iter().all(|&face| (face as usize) < mesh.faces.len()));
+        assert!(repaired.parent.iter().all(|&face| (face as usize) < faces.len()));
+        assert!((0..mesh.faces.len()).all(|face| !is_flat(mesh.corners(face))));
+        let again = repair(mesh).unwrap();
+        let mended =
+            ["coincident_vertices", "unreferenced_vertices", "zero_area_faces", "duplicate_faces"];
+        assert!(mended.iter().all(|kind| count(&again, kind) == 0), "{:?}", again.repairs);
+        // A strip with a twist has its seam where the walk ends, and that is not the same twice.
+        if repaired.census.unorientable == 0 {
+            assert_eq!(&again.mesh, mesh);
+        }
+    }
+}
