@@ -21,11 +21,11 @@ demo: setup ## Make a part, simulate a scan of it, segment it; results in ./demo
 	@PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python examples/demo.py $(DEMO)
 
 test: setup ## Rust and Python tests (a few minutes)
-	cargo test --workspace --locked
+	cargo test -p quadrics --locked
 	$(BIN)/pytest
 
 test-all: setup ## The slow ones too
-	cargo test --workspace --locked
+	cargo test -p quadrics --locked
 	$(BIN)/pytest -m ''
 
 lint: setup ## Formatters in check mode, clippy, ruff, mypy, stubs against the module
