@@ -10,14 +10,5 @@ pub mod mesh;
 pub mod options;
 pub mod partition;
 pub mod pipeline;
-pub mod render;
-pub mod result;
-pub mod surface;
-
-pub use context::Context;
-pub use error::Error;
-pub use mesh::Mesh;
-pub use options::Options;
-pub use pipeline::segment;
-pub use result::Segmentation;
-pub use surface::Surface;
+pub mod prepare;
+pub mod recognise;

@@ -6,6 +6,9 @@
 mod accessor;
 mod document;
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use nalgebra::{Matrix4, Point3};
 
 use super::build::Builder;
@@ -18,6 +21,9 @@ use document::{Document, Primitive};
 /// Extensions without which the triangles cannot be had, and that are not read.
 const COMPRESSED: [&str; 3] =
     ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+/// Every mesh may hang in every node: that is the square of what the file holds.
+const MOST_PRIMITIVES: usize = 1_000_000;
 
 /// `binary` is the buffer that comes with a GLB.
 pub(super) fn read(json: &[u8], binary: Option<&[u8]>, open: &mut Open) -> Result<Loaded> {
@@ -32,17 +38,19 @@ pub(super) fn read(json: &[u8], binary: Option<&[u8]>, open: &mut Open) -> Resul
     let buffers = Buffers::open(&document, binary, open)?;
     let mut builder = Builder::new("glTF", 0, 0);
     // A strip of byte-sized indices has a triangle a byte; nothing is denser.
-    builder.limit_copies(json.len() + buffers.size());
+    builder.limit_copies(json.len() + buffers.size);
     let mut passed_over = 0;
+    let mut visited = 0;
     for (mesh, matrix) in instances(&document)? {
         let mesh = lookup(&document.meshes, mesh, "mesh")?;
-        for primitive in &mesh.primitives {
-            if !(4..=6).contains(&primitive.mode) {
-                passed_over += 1;
-                continue;
-            }
-            add(primitive, &matrix, &buffers, &mut builder)?;
+        visited += mesh.primitives.len();
+        if visited > MOST_PRIMITIVES {
+            return Err(error(
+                "glTF",
+                format!("more than {MOST_PRIMITIVES} primitives in the scene"),
+            ));
         }
+        passed_over += add(&mesh.primitives, &matrix, &buffers, &mut builder)?;
     }
     let mut loaded = builder.finish()?;
     // The format prescribes it.
@@ -72,42 +80,74 @@ fn instances(document: &Document) -> Result<Vec<(usize, Matrix4<f64>)>> {
     Ok(found)
 }
 
+/// Adds a mesh, and tells how many of its primitives are no triangles.
 fn add(
-    primitive: &Primitive,
+    primitives: &[Primitive],
     matrix: &Matrix4<f64>,
     buffers: &Buffers,
     builder: &mut Builder,
-) -> Result<()> {
-    let Some(&positions) = primitive.attributes.get("POSITION") else {
-        return Err(error("glTF", "a primitive has no POSITION: export the mesh again"));
-    };
-    let positions = buffers.positions(positions)?;
+) -> Result<usize> {
+    // Primitives that differ in their material only share their vertices.
+    let mut placed = BTreeMap::new();
+    let (triangular, other): (Vec<_>, Vec<_>) =
+        primitives.iter().partition(|primitive| (4..=6).contains(&primitive.mode));
+    for primitive in triangular {
+        let Some(&accessor) = primitive.attributes.get("POSITION") else {
+            return Err(error("glTF", "a primitive has no POSITION: export the mesh again"));
+        };
+        let vertices = match placed.get(&accessor) {
+            Some(vertices) => Range::clone(vertices),
+            None => place(accessor, matrix, buffers, builder)?,
+        };
+        placed.insert(accessor, vertices.clone());
+        // A mirror turns the winding.
+        let mirrored = matrix.fixed_view::<3, 3>(0, 0).determinant() < 0.0;
+        add_faces(primitive, vertices, mirrored, buffers, builder)?;
+    }
+    Ok(other.len())
+}
+
+/// Adds vertices where the matrix takes them, and tells which they are.
+fn place(
+    accessor: usize,
+    matrix: &Matrix4<f64>,
+    buffers: &Buffers,
+    builder: &mut Builder,
+) -> Result<Range<usize>> {
+    let positions = buffers.positions(accessor)?;
     let first = builder.positions.len();
-    let indices: Vec<u32> = match primitive.indices {
-        Some(accessor) => buffers.indices(accessor)?,
-        None => (0..positions.len() as u32).collect(),
-    };
-    // One mesh may be hung into many nodes: a small file can claim a large scene.
     builder.check_limit(first + positions.len())?;
-    builder
-        .check_limit(builder.count() + indices.len() / if primitive.mode == 4 { 3 } else { 1 })?;
     for p in &positions {
         builder.vertex(matrix.transform_point(&Point3::from(*p)).into());
     }
-    // A mirror turns the winding.
-    let mirrored = matrix.fixed_view::<3, 3>(0, 0).determinant() < 0.0;
+    Ok(first..first + positions.len())
+}
+
+fn add_faces(
+    primitive: &Primitive,
+    vertices: Range<usize>,
+    mirrored: bool,
+    buffers: &Buffers,
+    builder: &mut Builder,
+) -> Result<()> {
+    let indices: Vec<u32> = match primitive.indices {
+        Some(accessor) => buffers.indices(accessor)?,
+        None => (0..vertices.len() as u32).collect(),
+    };
+    let least = if primitive.mode == 4 { indices.len() / 3 } else { indices.len() };
+    builder.check_limit(builder.count() + least)?;
     for mut corners in triangles(primitive.mode, &indices) {
         if mirrored {
             corners.swap(1, 2);
         }
-        if let Some(&vertex) = corners.iter().find(|&&corner| corner as usize >= positions.len()) {
+        if let Some(&vertex) = corners.iter().find(|&&corner| corner as usize >= vertices.len()) {
             return Err(Error::IndexOutOfRange {
                 face: builder.count(),
                 vertex: i64::from(vertex),
-                vertices: positions.len(),
+                vertices: vertices.len(),
             });
         }
-        builder.polygon(&corners.map(|corner| corner + first as u32))?;
+        builder.polygon(&corners.map(|corner| corner + vertices.start as u32))?;
     }
     Ok(())
 }

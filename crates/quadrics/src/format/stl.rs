@@ -14,6 +14,8 @@ use crate::result::Repair;
 
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
+/// Triangles that are welded at a time.
+const BATCH: usize = 8;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Loaded> {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
@@ -74,11 +76,17 @@ fn read_binary(bytes: &[u8]) -> Result<Loaded> {
         return Err(error("STL", format!("more than {MOST_FACES} triangles: split the mesh")));
     }
     let mut welder = Welder::new();
-    let faces = body[..TRIANGLE * count].chunks_exact(TRIANGLE).map(|triangle| {
-        // The normal comes first and is not needed: it follows from the corners.
-        [12, 24, 36].map(|at| welder.add(point(&triangle[at..at + 12])))
-    });
-    let faces: Vec<_> = faces.collect();
+    // Of a triangle, the normal comes first and is not needed: it follows from the corners.
+    let mut faces = Vec::with_capacity(count);
+    let (batches, rest) = body[..TRIANGLE * count].as_chunks::<{ BATCH * TRIANGLE }>();
+    for batch in batches {
+        let corner = |i: usize| point(&batch[i / 3 * TRIANGLE + 12 + i % 3 * 12..]);
+        let numbers: [u32; 3 * BATCH] = welder.add_all(std::array::from_fn(corner));
+        faces.extend(numbers.as_chunks::<3>().0);
+    }
+    for triangle in rest.chunks_exact(TRIANGLE) {
+        faces.push([12, 24, 36].map(|at| welder.add(point(&triangle[at..]))));
+    }
     let mut repairs = Vec::new();
     let rest = body.len() - TRIANGLE * count;
     if rest > 0 {

@@ -17,7 +17,7 @@ use model::{Instance, Model, Object};
 use package::Package;
 
 /// Instances that are followed: objects made of objects made of objects grow exponentially.
-const MOST_INSTANCES: usize = 1_000_000;
+const MOST_INSTANCES: usize = 100_000;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Loaded> {
     let mut package = Package::open(bytes)?;

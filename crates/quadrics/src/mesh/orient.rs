@@ -115,46 +115,69 @@ impl Component {
 
 /// The components, and for every face whether it must be turned to agree with the first of its own.
 fn spread(mesh: &Mesh, twins: &[u32], census: &mut Census) -> (Vec<Component>, Vec<bool>) {
+    let mut walk = Walk {
+        mesh,
+        twins,
+        seen: vec![false; mesh.faces.len()],
+        flip: vec![false; mesh.faces.len()],
+        clashes: 0,
+    };
     let mut components = Vec::new();
-    let mut seen = vec![false; mesh.faces.len()];
-    let mut flip = vec![false; mesh.faces.len()];
-    let mut clashes = 0;
     for first in 0..mesh.faces.len() {
-        if seen[first] {
-            continue;
+        if !walk.seen[first] {
+            components.push(walk.component(first as u32));
         }
-        seen[first] = true;
-        let mut faces = vec![first as u32];
+    }
+    // Each was met from both of its sides.
+    census.unorientable = walk.clashes / 2;
+    (components, walk.flip)
+}
+
+struct Walk<'a> {
+    mesh: &'a Mesh,
+    twins: &'a [u32],
+    seen: Vec<bool>,
+    flip: Vec<bool>,
+    clashes: usize,
+}
+
+impl Walk<'_> {
+    /// All that can be reached from `first`, breadth first.
+    fn component(&mut self, first: u32) -> Component {
+        self.seen[first as usize] = true;
+        let mut faces = vec![first];
         let mut next = 0;
         let mut closed = true;
         while let Some(&face) = faces.get(next) {
             next += 1;
             for half_edge in 3 * face..3 * face + 3 {
-                let twin = twins[half_edge as usize];
-                if twin == NONE {
-                    closed = false;
-                    continue;
-                }
-                // Neighbours agree when they run along their edge in opposite directions.
-                let agree = ends(&mesh.faces, half_edge).0 != ends(&mesh.faces, twin).0;
-                let wanted = flip[face as usize] == agree;
-                let neighbour = twin as usize / 3;
-                if !seen[neighbour] {
-                    seen[neighbour] = true;
-                    flip[neighbour] = wanted;
-                    faces.push(neighbour as u32);
-                } else if flip[neighbour] != wanted {
-                    clashes += 1;
-                    closed = false;
-                }
+                closed &= self.cross(half_edge, &mut faces);
             }
         }
-        let (low, high) = bounds(mesh, &faces);
-        components.push(Component { faces, closed, low, high });
+        let (low, high) = bounds(self.mesh, &faces);
+        Component { faces, closed, low, high }
     }
-    // Each was met from both of its sides.
-    census.unorientable = clashes / 2;
-    (components, flip)
+
+    /// Steps over an edge; whether there is a face that can agree with this one.
+    fn cross(&mut self, half_edge: u32, faces: &mut Vec<u32>) -> bool {
+        let twin = self.twins[half_edge as usize];
+        if twin == NONE {
+            return false;
+        }
+        // Neighbours agree when they run along their edge in opposite directions.
+        let start = |half_edge| ends(&self.mesh.faces, half_edge).0;
+        let agree = start(half_edge) != start(twin);
+        let wanted = self.flip[half_edge as usize / 3] == agree;
+        let neighbour = twin as usize / 3;
+        if self.seen[neighbour] {
+            self.clashes += usize::from(self.flip[neighbour] != wanted);
+            return self.flip[neighbour] == wanted;
+        }
+        self.seen[neighbour] = true;
+        self.flip[neighbour] = wanted;
+        faces.push(neighbour as u32);
+        true
+    }
 }
 
 fn bounds(mesh: &Mesh, faces: &[u32]) -> (Point, Point) {

@@ -162,7 +162,7 @@ pub fn gltf_buffer() -> Vec<u8> {
 
 pub fn glb() -> Vec<u8> {
     let mut json = GLTF.replace("URI", "");
-    while json.len() % 4 > 0 {
+    while !json.len().is_multiple_of(4) {
         json.push(' ');
     }
     let buffer = gltf_buffer();

@@ -195,6 +195,18 @@ fn a_zip_bomb_is_refused_before_it_unpacks() {
 }
 
 #[test]
+fn a_zip_bomb_that_lies_about_its_size_is_refused_too() {
+    let model = format!("<model>{}</model>", "<a/>".repeat(5 << 20));
+    let mut bytes = threemf(&model);
+    let size = (model.len() as u32).to_le_bytes();
+    let places: Vec<_> = (0..bytes.len() - 4).filter(|&at| bytes[at..at + 4] == size).collect();
+    assert_eq!(places.len(), 2, "the local and the central header");
+    places.iter().for_each(|&at| bytes[at..at + 4].copy_from_slice(&1000u32.to_le_bytes()));
+    let line = complaint("3mf", &bytes);
+    assert!(line.contains("refused") || line.contains("cut off"), "{line}");
+}
+
+#[test]
 fn objects_made_of_each_other_come_to_an_end() {
     let twice = |id: u32, of: u32| {
         let one = format!("<component objectid='{of}'/>");

@@ -20,7 +20,7 @@ fn every_spelling_of_a_part_reads_as_the_same_part() {
     for (name, extension, bytes) in fixtures::all() {
         let loaded = read(extension, &bytes).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(near(&triangles(&loaded), &expected()), "{name}: {:?}", triangles(&loaded));
-        assert_eq!(loaded.mesh.positions.len() % 5, 0, "{name} is not welded");
+        assert_eq!(loaded.mesh.positions.len(), 5, "{name} has shared vertices");
         assert_eq!(loaded.input_faces.of_triangle, [0, 1, 2, 3], "{name}");
         assert_eq!(loaded.input_faces.count, 4, "{name}");
         let unit = match extension {
@@ -120,6 +120,17 @@ fn an_object_of_a_3mf_may_stand_in_another_model() {
     let root = model("", "<item objectid='1' p:path='/3D/other.model'/>");
     let bytes = zipped(&[("3D/root.model", &root), ("3D/other.model", &model(fixtures::MESH, ""))]);
     assert!(near(&triangles(&read("3mf", &bytes).unwrap()), &expected()));
+}
+
+#[test]
+fn a_binary_stl_of_any_length_is_welded() {
+    let triangle = fixtures::binary_stl(b"")[84..134].to_vec();
+    for count in 0..40u32 {
+        let mut bytes = vec![0; 80];
+        bytes.extend(count.to_le_bytes());
+        (0..count).for_each(|_| bytes.extend(&triangle));
+        assert_eq!(read("stl", &bytes).unwrap().mesh.faces, vec![[0, 1, 2]; count as usize]);
+    }
 }
 
 #[test]

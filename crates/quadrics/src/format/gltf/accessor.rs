@@ -1,6 +1,7 @@
 //! Numbers out of a glTF's buffers, every slice checked.
 
-use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::document::{Accessor, Document};
 use super::lookup;
@@ -10,15 +11,22 @@ use crate::format::{Open, error};
 /// The buffers and how they are cut.
 pub struct Buffers<'a> {
     document: &'a Document,
-    content: Vec<Cow<'a, [u8]>>,
+    content: Vec<Rc<[u8]>>,
+    /// Bytes in all of them, those that are one file counted once.
+    pub size: usize,
 }
 
 impl<'a> Buffers<'a> {
     pub fn open(document: &'a Document, binary: Option<&'a [u8]>, open: &mut Open) -> Result<Self> {
-        let mut content = Vec::new();
+        let mut content: Vec<Rc<[u8]>> = Vec::new();
+        // A thousand buffers may name one file, which is fetched once.
+        let mut fetched = BTreeMap::new();
         for (index, buffer) in document.buffers.iter().enumerate() {
-            let bytes: Cow<[u8]> = match (&buffer.uri, binary) {
-                (Some(uri), _) => fetch(uri, open)?.into(),
+            let bytes: Rc<[u8]> = match (&buffer.uri, binary) {
+                (Some(uri), _) => match fetched.get(uri) {
+                    Some(bytes) => Rc::clone(bytes),
+                    None => fetch(uri, open)?.into(),
+                },
                 (None, Some(binary)) if index == 0 => binary.into(),
                 _ => return Err(error("glTF", format!("buffer {index} is missing"))),
             };
@@ -27,14 +35,14 @@ impl<'a> Buffers<'a> {
                 let what = format!("buffer {index} claims {claimed} bytes, but holds {held}");
                 return Err(error("glTF", format!("{what}; was the file cut off?")));
             }
+            if let Some(uri) = &buffer.uri {
+                fetched.insert(uri, Rc::clone(&bytes));
+            }
             content.push(bytes);
         }
-        Ok(Self { document, content })
-    }
-
-    /// Bytes in all buffers together.
-    pub fn size(&self) -> usize {
-        self.content.iter().map(|bytes| bytes.len()).sum()
+        let inside = binary.map_or(0, <[u8]>::len);
+        let size = inside + fetched.values().map(|bytes| bytes.len()).sum::<usize>();
+        Ok(Self { document, content, size })
     }
 
     /// Positions; of integers too, as quantised files have them.

@@ -70,42 +70,34 @@ impl<'a> Package<'a> {
         if file.size() > budget {
             return Err(bomb(&shown, budget));
         }
-        let mut reader = quick_xml::Reader::from_reader(BufReader::with_capacity(
-            1 << 16,
-            file.take(budget + 1),
-        ));
+        let stream = BufReader::with_capacity(1 << 16, file.take(budget + 1));
+        let mut reader = quick_xml::Reader::from_reader(stream);
         reader.config_mut().expand_empty_elements = true;
         let mut buffer = Vec::new();
-        let mut open_elements = 0_i64;
+        let mut depth = 0_i64;
         loop {
             buffer.clear();
             let event = reader.read_event_into(&mut buffer);
             let left = reader.get_ref().get_ref().limit();
             let position = reader.buffer_position();
+            let cut = |cause: String| {
+                error("3MF", format!("byte {position} of {shown}: {cause}; was the file cut off?"))
+            };
+            if left == 0 {
+                return Err(bomb(&shown, budget));
+            }
+            let event = event.map_err(|cause| cut(cause.to_string()))?;
             match event {
-                _ if left == 0 => return Err(bomb(&shown, budget)),
-                Ok(Event::Eof) if open_elements > 0 => {
-                    let what = format!("{shown} ends after {position} bytes, within an element");
-                    return Err(error("3MF", format!("{what}; was the file cut off?")));
-                }
-                Ok(Event::Eof) => {
+                Event::Start(_) => depth += 1,
+                Event::End(_) => depth -= 1,
+                Event::Eof if depth > 0 => return Err(cut("the end within an element".into())),
+                Event::Eof => {
                     self.budget = left.min(budget);
                     return Ok(());
                 }
-                Ok(event) => {
-                    match event {
-                        Event::Start(_) => open_elements += 1,
-                        Event::End(_) => open_elements -= 1,
-                        _ => {}
-                    }
-                    take(&event, position)?;
-                }
-                Err(cause) => {
-                    let what =
-                        format!("byte {position} of {shown}: {cause}; was the file cut off?");
-                    return Err(error("3MF", what));
-                }
+                _ => {}
             }
+            take(&event, position)?;
         }
     }
 }
