@@ -12,3 +12,14 @@ pub mod partition;
 pub mod pipeline;
 pub mod prepare;
 pub mod recognise;
+pub mod render;
+pub mod result;
+pub mod surface;
+
+pub use context::Context;
+pub use error::Error;
+pub use mesh::Mesh;
+pub use options::Options;
+pub use pipeline::segment;
+pub use result::Segmentation;
+pub use surface::Surface;
