@@ -7,6 +7,7 @@ import gzip
 import hashlib
 import io
 import lzma
+import os
 import stat
 import time
 import zlib
@@ -14,7 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from quadrics import _core
-from quadrics.errors import InputError
+from quadrics.errors import InputError, OutputError
 from quadrics.mesh import Mesh, Source
 
 #: How compressed files begin, and what opens them.
@@ -83,6 +84,38 @@ def read_bytes(path: Path) -> bytes:
         raise InputError(f"{path}: cannot be read: {reason.lower()}") from None
     except MemoryError:
         raise InputError(f"{path}: does not fit into memory") from None
+
+
+#: Endings of the names of files that can be written.
+WRITABLE = (".ply", ".stl", ".obj", ".off")
+
+
+def check_target(path: Path, *, overwrite: bool) -> None:
+    """Refuse a file that cannot be written, before the work is done."""
+    if path.suffix.lower() not in WRITABLE:
+        raise OutputError(f"{path}: cannot be written: end its name in {', '.join(WRITABLE)}")
+    if path.is_dir():
+        raise OutputError(f"{path}: is a folder; name a file")
+    if path.exists() and not overwrite:
+        raise OutputError(f"{path}: is there already; add --overwrite, or choose another name")
+    if not path.absolute().parent.is_dir():
+        raise OutputError(f"{path}: there is no folder {path.parent}")
+
+
+def save(mesh: Mesh, path: Path, *, overwrite: bool) -> None:
+    """Write a mesh beside `path`, then rename it: the file appears whole, or not at all."""
+    check_target(path, overwrite=overwrite)
+    content = _core.write(path.suffix[1:], mesh.vertices, mesh.faces)
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        try:
+            partial.write_bytes(content)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise OutputError(f"{path}: cannot be written: {reason}") from error
 
 
 def _unpack(path: Path, content: bytes) -> bytes:

@@ -76,6 +76,18 @@ class Mesh:
         used = self.vertices[np.unique(self.faces)]
         return float((used.max(axis=0) - used.min(axis=0)).max())
 
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Write the triangles to a PLY, STL, OBJ or OFF file, by the ending of its name.
+
+        Raises
+        ------
+        OutputError
+            If the file is there and `overwrite` is false, or if it cannot be written.
+        """
+        from quadrics.files import save  # here, because it needs Mesh
+
+        save(self, Path(path), overwrite=overwrite)
+
     def areas(self) -> NDArray[np.float64]:
         """Measure the triangles."""
         area: NDArray[np.float64] = np.linalg.norm(_double_normals(self), axis=1) / 2
