@@ -74,7 +74,8 @@ impl<'a> Scene<'a> {
     pub fn samples(&self, faces: &[u32], limit: usize, seen: &mut Marks) -> Gathered {
         let mut vertices = seen.vertices_of(self.mesh, faces);
         if self.correlated() {
-            let inner = |&(v, _): &(u32, u32)| seen.count(v) == self.adjacency.around(v).len() as u32;
+            let inner =
+                |&(v, _): &(u32, u32)| seen.count(v) == self.adjacency.around(v).len() as u32;
             let inside: Vec<_> = vertices.iter().copied().filter(inner).collect();
             if inside.len() >= ENOUGH {
                 vertices = inside;
