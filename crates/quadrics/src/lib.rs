@@ -11,6 +11,7 @@ pub mod partition;
 pub mod pipeline;
 pub mod result;
 pub mod surface;
+pub mod synth;
 
 pub use context::Context;
 pub use error::Error;
