@@ -93,8 +93,9 @@ impl Lattice {
         let mut crossings = vec![Vec::new(); self.rows];
         for (from, to) in edges(loops) {
             let (low, high) = if from[1] < to[1] { (from, to) } else { (to, from) };
-            // Half open, so that a row through a vertex is crossed once.
-            for row in self.row_at(low[1]).ceil().max(0.0) as usize.. {
+            // Half open, so that a row through a vertex is crossed once; floor, and not ceil, lest
+            // rounding skips that row.
+            for row in self.row_at(low[1]).floor().max(0.0) as usize.. {
                 let y = self.origin[1] + row as f64 * self.step[1];
                 if y >= high[1] || row >= self.rows {
                     break;
@@ -109,8 +110,8 @@ impl Lattice {
             cuts.sort_by(f64::total_cmp);
             for pair in cuts.chunks_exact(2) {
                 let [first, last] = [pair[0], pair[1]].map(|x| self.column_at(row, x));
-                let last = (last.floor() as usize).min(self.columns - 1);
-                for column in first.ceil().max(0.0) as usize..=last {
+                let end = ((last.floor() + 1.0).max(0.0) as usize).min(self.columns);
+                for column in first.ceil().max(0.0) as usize..end {
                     self.nodes[row * self.columns + column] = Node::Deep;
                 }
             }
