@@ -6,6 +6,7 @@ mod mesh;
 mod picture;
 mod segment;
 mod surface;
+mod synth;
 
 use pyo3::prelude::*;
 
@@ -24,5 +25,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(surface::project, module)?)?;
     module.add_function(wrap_pyfunction!(surface::coefficients, module)?)?;
     module.add_function(wrap_pyfunction!(picture::render, module)?)?;
+    module.add_function(wrap_pyfunction!(synth::part_names, module)?)?;
+    module.add_function(wrap_pyfunction!(synth::part, module)?)?;
     Ok(())
 }

@@ -134,6 +134,6 @@ pub fn repairs(repairs: Vec<Repair>) -> Vec<(&'static str, usize, String)> {
     repairs.into_iter().map(|repair| (repair.kind, repair.count, repair.detail)).collect()
 }
 
-fn rows_of_three<T>(flat: Vec<T>) -> Array2<T> {
+pub fn rows_of_three<T>(flat: Vec<T>) -> Array2<T> {
     Array2::from_shape_vec((flat.len() / 3, 3), flat).expect("three a row")
 }

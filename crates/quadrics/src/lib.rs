@@ -15,6 +15,7 @@ pub mod recognise;
 pub mod render;
 pub mod result;
 pub mod surface;
+pub mod synth;
 
 pub use context::Context;
 pub use error::Error;
