@@ -14,9 +14,11 @@ pub mod partition;
 pub mod pipeline;
 pub mod prepare;
 pub mod recognise;
+pub mod render;
 pub mod result;
 pub mod segment;
 pub mod surface;
+pub mod synth;
 
 pub use context::Context;
 pub use error::Error;
