@@ -1,8 +1,10 @@
 //! Who owns which face.
 
 mod hand_out;
+mod separate;
 
 pub use hand_out::hand_out;
+pub use separate::separate;
 
 use crate::mesh::Adjacency;
 
