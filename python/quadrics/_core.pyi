@@ -10,7 +10,10 @@ __all__ = [
     "default_options",
     "distance",
     "inspect",
+    "noise",
     "normal",
+    "part",
+    "part_names",
     "project",
     "read",
     "render",
@@ -54,6 +57,15 @@ def segment(
     initial_labels: NDArray[np.uint32] | None = None,
     progress: Callable[[str, float], object] | None = None,
 ) -> _Segmentation: ...
+def part_names() -> list[str]: ...
+def part(name: str, faces: int) -> dict[str, Any]: ...
+def noise(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    sigma: float,
+    ratio: float,
+    seed: int,
+) -> NDArray[np.float64]: ...
 def default_options() -> dict[str, Any]: ...
 def distance(
     kind: str, numbers: list[float], points: NDArray[np.float64]
