@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import quadrics
-from quadrics import synth
+from quadrics import _core, synth
 from quadrics.cli.main import main
 from quadrics.surfaces import AnalyticSurface
 
@@ -38,6 +39,26 @@ def test_noise_moves_its_share_of_the_vertices_by_no_more_than_sigma() -> None:
 def test_noise_that_cannot_be_meant_is_refused(wrong: dict[str, float]) -> None:
     with pytest.raises(quadrics.OptionError, match=next(iter(wrong))):
         synth.noise(synth.part("shaft", 4_000).mesh, **wrong)  # type: ignore[arg-type]
+
+
+def test_the_scanner_is_that_of_the_core() -> None:
+    assert asdict(synth.Scanner()) == _core.default_scanner()
+
+
+def test_a_scan_lies_near_the_surfaces_and_is_made_again_by_its_seed() -> None:
+    part = synth.part("shaft", 5_000)
+    scanner = synth.Scanner(faces=5_000)
+    scan, again = (synth.scan(part, scanner, seed=2) for _ in range(2))
+    assert np.array_equal(scan.mesh.vertices, again.mesh.vertices)
+    assert scan.labels.shape == (scan.mesh.face_count,)
+    centres = scan.mesh.vertices[scan.mesh.faces].mean(axis=1)
+    off = np.zeros(len(centres))
+    for number, surface in enumerate(scan.surfaces):
+        assert isinstance(surface, AnalyticSurface)
+        own = scan.labels == number
+        off[own] = surface.distance(centres[own])
+    # Waviness and jitter are a thousandth of the size; most faces do not touch an edge.
+    assert np.median(np.abs(off)) < 0.003 * part.mesh.size
 
 
 def test_an_unknown_part_names_those_that_there_are() -> None:

@@ -8,6 +8,7 @@ __all__ = [
     "__version__",
     "coefficients",
     "default_options",
+    "default_scanner",
     "distance",
     "inspect",
     "noise",
@@ -17,6 +18,7 @@ __all__ = [
     "project",
     "read",
     "render",
+    "scan",
     "segment",
     "write",
     "write_segmentation",
@@ -59,6 +61,16 @@ def segment(
 ) -> _Segmentation: ...
 def part_names() -> list[str]: ...
 def part(name: str, faces: int) -> dict[str, Any]: ...
+def default_scanner() -> dict[str, Any]: ...
+def scan(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    labels: NDArray[np.uint32],
+    surfaces: list[tuple[str, list[float]]],
+    scanner: dict[str, Any],
+    seed: int,
+    progress: Callable[[str, float], object] | None,
+) -> dict[str, Any]: ...
 def noise(
     positions: NDArray[np.float64],
     faces: NDArray[np.uint32],
