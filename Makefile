@@ -18,7 +18,7 @@ setup: $(VENV)/.built ## .venv with the program and all tools (done once, then o
 build: setup ## The same, under the name that one tries first
 
 demo: setup ## Make a part, simulate a scan of it, segment it; results in ./demo
-	@PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python examples/demo.py $(DEMO)
+	$(BIN)/python examples/01_first_scan.py $(DEMO)
 
 test: setup ## Rust and Python tests (a few minutes)
 	cargo test -p quadrics --locked

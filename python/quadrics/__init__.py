@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from quadrics import synth
     from quadrics.errors import InputError, OptionError, OutputError, QuadricsError
     from quadrics.mesh import Mesh, as_mesh, read
     from quadrics.options import Options
@@ -79,11 +80,14 @@ __all__ = [
     "as_mesh",
     "read",
     "segment",
+    "synth",
 ]
 
 
 def __getattr__(name: str) -> Any:
     # On first use: `quadrics --help` must not wait for NumPy.
+    if name == "synth":
+        return import_module("quadrics.synth")
     if name not in _HOME:
         raise AttributeError(f"module 'quadrics' has no attribute '{name}'")
     value = getattr(import_module(f"quadrics.{_HOME[name]}"), name)

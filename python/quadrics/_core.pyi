@@ -8,12 +8,17 @@ __all__ = [
     "__version__",
     "coefficients",
     "default_options",
+    "default_scanner",
     "distance",
     "inspect",
+    "noise",
     "normal",
+    "part",
+    "part_names",
     "project",
     "read",
     "render",
+    "scan",
     "segment",
     "write",
     "write_segmentation",
@@ -54,6 +59,25 @@ def segment(
     initial_labels: NDArray[np.uint32] | None = None,
     progress: Callable[[str, float], object] | None = None,
 ) -> _Segmentation: ...
+def part_names() -> list[str]: ...
+def part(name: str, faces: int) -> dict[str, Any]: ...
+def default_scanner() -> dict[str, Any]: ...
+def scan(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    labels: NDArray[np.uint32],
+    surfaces: list[tuple[str, list[float]]],
+    scanner: dict[str, Any],
+    seed: int,
+    progress: Callable[[str, float], object] | None,
+) -> dict[str, Any]: ...
+def noise(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    sigma: float,
+    ratio: float,
+    seed: int,
+) -> NDArray[np.float64]: ...
 def default_options() -> dict[str, Any]: ...
 def distance(
     kind: str, numbers: list[float], points: NDArray[np.float64]

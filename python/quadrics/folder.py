@@ -86,12 +86,12 @@ def _write(result: Result, folder: Path) -> None:
 
 def _swap(new: Path, folder: Path) -> None:
     old = new.with_suffix(".old")
-    if folder.exists():
-        folder.rename(old)
     try:
+        if folder.exists():
+            folder.rename(old)
         new.rename(folder)
-    except OSError:
-        if old.exists():
+    except BaseException:  # Ctrl-C between the two as well.
+        if old.exists() and not folder.exists():
             old.rename(folder)
         raise
     shutil.rmtree(old, ignore_errors=True)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from quadrics import _core
 from quadrics.errors import OptionError
-from quadrics.mesh import Mesh, MeshLike, as_mesh
-from quadrics.surfaces import Surface, surface_from
+from quadrics.mesh import Mesh, MeshLike, as_mesh, located
+from quadrics.surfaces import FreeForm, Surface, surface_from
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -28,6 +28,37 @@ class Part:
 
     def __repr__(self) -> str:
         return f"Part(faces={len(self.labels)}, regions={len(self.surfaces)})"
+
+
+@dataclass(frozen=True)
+class Scanner:
+    """What a scanner does to a part; lengths are fractions of the longest side of the part.
+
+    Parameters
+    ----------
+    faces : int
+        Triangles, about.
+    waviness : float
+        Standard deviation of the errors that neighbouring points share.
+    wavelength : float
+        Correlation length of those.
+    jitter : float
+        Standard deviation of the error that every vertex has on its own.
+    density : float
+        Relative variation of the distance between vertices.
+    holes : (int, int)
+        Fewest and most holes.
+    hole_radius : (float, float)
+        Least and greatest radius of a hole.
+    """
+
+    faces: int = 50_000
+    waviness: float = 0.001
+    wavelength: float = 0.06
+    jitter: float = 0.0005
+    density: float = 0.15
+    holes: tuple[int, int] = (2, 4)
+    hole_radius: tuple[float, float] = (0.02, 0.05)
 
 
 def names() -> list[str]:
@@ -53,15 +84,29 @@ def part(name: str = "demo", faces: int = 20_000) -> Part:
     return _part_from(_core.part(name, faces))
 
 
-def scan(part: Part, *, seed: int = 0) -> Part:
+def scan(
+    part: Part,
+    scanner: Scanner | None = None,
+    *,
+    seed: int = 0,
+    progress: Callable[[str, float], object] | None = None,
+) -> Part:
     """Simulate a scan of a part.
 
-    Edges are rounded and cross the borders of the regions, the noise is correlated, and there
-    are holes. Regions are numbered anew.
+    Triangles cross the edges of the part, errors are correlated, and there are holes. Regions
+    are numbered anew: a region that a hole cuts in two is two.
+
+    Examples
+    --------
+    >>> scan(part("shaft", 5_000), Scanner(faces=5_000), seed=1).mesh.face_count > 2_500
+    True
     """
-    mesh = part.mesh
-    labels = part.labels.astype(np.uint32)
-    return _part_from(_core.scan(mesh.vertices, mesh.faces, labels, _flat(part), seed))
+    mesh, labels = part.mesh, part.labels.astype(np.uint32)
+    surfaces = [surface._flat() for surface in part.surfaces if not isinstance(surface, FreeForm)]
+    how = asdict(scanner or Scanner())
+    return _part_from(
+        _core.scan(mesh.vertices, mesh.faces, labels, surfaces, how, _seed(seed), progress)
+    )
 
 
 def noise(source: MeshLike, *, sigma: float = 0.01, ratio: float = 0.9, seed: int = 0) -> Mesh:
@@ -82,10 +127,10 @@ def noise(source: MeshLike, *, sigma: float = 0.01, ratio: float = 0.9, seed: in
         raise OptionError(f"sigma is {sigma}: give a number from 0")
     if not 0 <= ratio <= 1:
         raise OptionError(f"ratio is {ratio}: give a number from 0 to 1")
-    if not 0 <= seed < 2**63:
-        raise OptionError(f"seed is {seed}: give a whole number from 0")
     mesh = as_mesh(source)
-    return replace(mesh, vertices=_core.noise(mesh.vertices, mesh.faces, sigma, ratio, seed))
+    with located(mesh):
+        moved = _core.noise(mesh.vertices, mesh.faces, sigma, ratio, _seed(seed))
+    return replace(mesh, vertices=moved)
 
 
 def _part_from(found: Mapping[str, Any]) -> Part:
@@ -94,5 +139,7 @@ def _part_from(found: Mapping[str, Any]) -> Part:
     return Part(mesh, found["labels"].astype(np.int32), surfaces)
 
 
-def _flat(part: Part) -> list[tuple[str, list[float]]]:
-    return [surface._flat() for surface in part.surfaces if hasattr(surface, "_flat")]
+def _seed(seed: int) -> int:
+    if not 0 <= seed < 2**63:
+        raise OptionError(f"seed is {seed}: give a whole number from 0")
+    return seed

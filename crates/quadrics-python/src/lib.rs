@@ -27,5 +27,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(picture::render, module)?)?;
     module.add_function(wrap_pyfunction!(synth::part_names, module)?)?;
     module.add_function(wrap_pyfunction!(synth::part, module)?)?;
+    module.add_function(wrap_pyfunction!(synth::default_scanner, module)?)?;
+    module.add_function(wrap_pyfunction!(synth::scan, module)?)?;
+    module.add_function(wrap_pyfunction!(synth::noise, module)?)?;
     Ok(())
 }

@@ -49,7 +49,7 @@ pub fn describe<'py>(py: Python<'py>, surface: &Surface) -> PyResult<Bound<'py, 
 }
 
 /// The surface with these parameters.
-fn build(kind: &str, numbers: &[f64]) -> PyResult<Surface> {
+pub fn build(kind: &str, numbers: &[f64]) -> PyResult<Surface> {
     let at = |i: usize| Point::new(numbers[i], numbers[i + 1], numbers[i + 2]);
     let unit = |i: usize| Unit::new_normalize(at(i).coords);
     Ok(match (kind, numbers.len()) {

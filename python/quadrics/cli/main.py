@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from quadrics.cli import info, segment
+from quadrics.cli import info, noise, segment
 from quadrics.errors import InputError, OptionError, OutputError
 
 #: What a shell and a scheduler see.
 DONE, FAULT, USAGE, INPUT, OUTPUT, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
-COMMANDS = {"segment": segment, "info": info}
+COMMANDS = {"segment": segment, "info": info, "noise": noise}
 
 EXAMPLES = """\
 examples:
@@ -91,6 +92,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def entry() -> NoReturn:
     """Run the program that `quadrics` and `python -m quadrics` are."""
+    # A terminal that knows no ± must not end a run that took minutes.
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")
     try:
         code = main()
     except KeyboardInterrupt:  # During the imports, say.
