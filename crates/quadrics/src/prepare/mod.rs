@@ -1,5 +1,4 @@
-//! Before the first region: unit cube and subdivision (paper, section 4.1), the way back, and what the
-//! mesh tells of its noise.
+//! What happens to a mesh before surfaces are sought: unit cube, subdivision, noise, normals.
 
 mod back;
 pub mod noise;
