@@ -64,7 +64,6 @@ fn run(
     repairs.extend(found.repairs);
     let position = found.evidence.sigma * out.scaling();
     Ok(Segmentation {
-        size: out.scaling(),
         labels,
         regions: described.regions,
         relations: Vec::new(),

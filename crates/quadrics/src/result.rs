@@ -82,8 +82,6 @@ pub struct Relation {
 /// The result of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Segmentation {
-    /// Longest side of the input's bounding box, in its units.
-    pub size: f64,
     /// Region of every input face.
     pub labels: Vec<u32>,
     /// The regions; region `i` has id `i`.

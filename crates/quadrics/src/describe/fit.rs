@@ -3,7 +3,7 @@
 use crate::math::Point;
 use crate::recognise::scene::{Marks, ROUNDING, Scene};
 use crate::surface::select::{self, Choice};
-use crate::surface::{Shape, Surface, refine, start};
+use crate::surface::{Shape, Surface, refine};
 
 use super::confidence::{confidence, is_noteworthy};
 
@@ -67,26 +67,12 @@ fn candidates(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) 
     let gathered = scene.samples(faces, CHOICE, marks);
     let samples = gathered.samples();
     let mut choices = select::choose(samples, gathered.total, scene.evidence);
-    let mut consider = |surface: &Surface| {
-        if let Some(fit) = refine(surface, samples.points, &[]) {
-            choices.push(select::judge(fit.surface, samples, gathered.total, scene.evidence));
-        }
-    };
-    consider(known);
-    let explained = |choices: &[Choice]| choices.iter().any(|choice| choice.misfit <= EXPLAINED);
-    if !explained(&choices)
-        && samples.points.len() >= QUADRIC_POINTS
-        && let Some(quadric) = start::quadric(samples)
-        && let Some(fit) = refine(&quadric, samples.points, &[])
-    {
+    if let Some(fit) = refine(known, samples.points, &[]) {
         choices.push(select::judge(fit.surface, samples, gathered.total, scene.evidence));
     }
     choices.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
     choices
 }
-
-/// Fewer points lie on many quadrics.
-const QUADRIC_POINTS: usize = 20;
 
 /// The surface that most of the points agree on, and the points that do: iterated reweighting, so that
 /// faces of a neighbour do not pull.
