@@ -3,11 +3,12 @@
 use crate::context::Context;
 use crate::describe::describe;
 use crate::error::{Error, Result};
-use crate::mesh::{Mesh, Repaired, Working, repair};
+use crate::math::Similarity;
+use crate::mesh::{Mesh, Working, repair};
 use crate::options::{Options, Preset};
 use crate::paper::paper;
 use crate::partition::{Labels, UNLABELLED, compact, hand_out, separate};
-use crate::prepare::{labels_back, subdivide, to_unit_cube};
+use crate::prepare::{Ordered, labels_back, ordered, subdivide, to_unit_cube};
 use crate::recognise::{self, evidence, scene::Scene};
 use crate::result::{Noise, Repair, Segmentation};
 use crate::surface::Surface;
@@ -38,14 +39,9 @@ fn run(
     options: &Options,
     initial_labels: Option<&[u32]>,
 ) -> Result<Segmentation> {
-    let Repaired { mesh: clean, parent, representative, mut repairs, .. } =
-        context.timed("repair", |_| repair(mesh))?;
-    let start = initial_labels.map(|labels| start(labels, mesh, &parent)).transpose()?;
-    let into = to_unit_cube(&clean)?;
-    let out = into.inverse();
-    let positions = clean.positions.iter().map(|point| into * point).collect();
-    let cube = Working::new(Mesh { positions, faces: clean.faces });
-    let start = start.map(|labels| complete(labels, &cube));
+    let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh))?;
+    let Clean { cube, parent, representative, out } = clean;
+    let start = initial_labels.map(|labels| start(labels, mesh, &parent, &cube)).transpose()?;
     let found = match options.preset {
         Preset::Default => by_default(context, &cube, options, start.as_deref())?,
         Preset::Paper => by_paper(context, &cube, options, start.as_deref())?,
@@ -72,6 +68,36 @@ fn run(
         energy: found.energy,
         timing: context.timing().to_vec(),
     })
+}
+
+/// The mesh that both methods work on, and how it hangs together with the input.
+struct Clean {
+    /// Repaired, in the unit cube, in its own order.
+    cube: Working,
+    /// The input face of every face.
+    parent: Vec<u32>,
+    /// The face whose label every input face takes.
+    representative: Vec<u32>,
+    /// From the unit cube to the input.
+    out: Similarity,
+}
+
+impl Clean {
+    fn new(mesh: &Mesh) -> Result<(Self, Vec<Repair>)> {
+        let repaired = repair(mesh)?;
+        let into = to_unit_cube(&repaired.mesh)?;
+        let positions = repaired.mesh.positions.iter().map(|point| into * point).collect();
+        let Ordered { mesh, former } = ordered(&Mesh { positions, faces: repaired.mesh.faces });
+        let mut new = vec![0; former.len()];
+        former.iter().zip(0..).for_each(|(&old, face)| new[old as usize] = face);
+        let clean = Self {
+            cube: Working::new(mesh),
+            parent: former.iter().map(|&old| repaired.parent[old as usize]).collect(),
+            representative: repaired.representative.iter().map(|&f| new[f as usize]).collect(),
+            out: into.inverse(),
+        };
+        Ok((clean, repaired.repairs))
+    }
 }
 
 /// What either method finds on the faces of the clean mesh, in the unit cube.
@@ -139,26 +165,22 @@ fn by_paper(
     Ok(Found { labels, surfaces, evidence, energy: found.energy, repairs: found.repairs })
 }
 
-/// The user's labels on the clean mesh, numbered from 0.
-fn start(labels: &[u32], mesh: &Mesh, parent: &[u32]) -> Result<Labels> {
+/// The user's labels on the clean mesh, numbered from 0; faces that have none go to a neighbour.
+fn start(labels: &[u32], mesh: &Mesh, parent: &[u32], cube: &Working) -> Result<Labels> {
     let (given, faces) = (labels.len(), mesh.faces.len());
     if given != faces {
-        return Err(Error::Option(format!(
-            "{given} initial labels for {faces} faces: give one each"
-        )));
+        let text = format!("{given} initial labels for {faces} faces: give one each");
+        return Err(Error::Option(text));
     }
     let mut known: Vec<u32> = labels.iter().copied().filter(|&l| l != UNLABELLED).collect();
     known.sort_unstable();
     known.dedup();
     let number = |face: &u32| known.binary_search(&labels[*face as usize]);
-    Ok(parent.iter().map(|face| number(face).map_or(UNLABELLED, |n| n as u32)).collect())
-}
-
-/// Labels without gaps: faces that the user left out go to a neighbour.
-fn complete(mut labels: Labels, cube: &Working) -> Labels {
-    hand_out(&mut labels, &cube.adjacency, &cube.geometry.normals);
-    compact(&mut labels);
-    labels
+    let mut start: Labels =
+        parent.iter().map(|face| number(face).map_or(UNLABELLED, |n| n as u32)).collect();
+    hand_out(&mut start, &cube.adjacency, &cube.geometry.normals);
+    compact(&mut start);
+    Ok(start)
 }
 
 /// Labels of the input's faces, numbered by first face, and the number that every region had.

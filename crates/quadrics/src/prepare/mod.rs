@@ -3,9 +3,11 @@
 mod back;
 pub mod noise;
 pub mod normals;
+mod order;
 mod subdivide;
 mod unit_cube;
 
 pub use back::{Returned, labels_back};
+pub use order::{Ordered, ordered};
 pub use subdivide::{Subdivided, subdivide};
 pub use unit_cube::to_unit_cube;
