@@ -8,7 +8,7 @@ use crate::mesh::{Mesh, Working, repair};
 use crate::options::{Options, Preset};
 use crate::paper::paper;
 use crate::partition::{Labels, UNLABELLED, compact, hand_out, separate};
-use crate::prepare::{Ordered, labels_back, ordered, subdivide, to_unit_cube};
+use crate::prepare::{Ordered, labels_back, ordered, subdivide, to_own_cube, to_unit_cube};
 use crate::recognise::{self, evidence, scene::Scene};
 use crate::result::{Noise, Repair, Segmentation};
 use crate::surface::Surface;
@@ -39,7 +39,7 @@ fn run(
     options: &Options,
     initial_labels: Option<&[u32]>,
 ) -> Result<Segmentation> {
-    let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh))?;
+    let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh, options.preset))?;
     let Clean { cube, parent, representative, out } = clean;
     let start = initial_labels.map(|labels| start(labels, mesh, &parent, &cube)).transpose()?;
     let found = match options.preset {
@@ -83,11 +83,16 @@ struct Clean {
 }
 
 impl Clean {
-    fn new(mesh: &Mesh) -> Result<(Self, Vec<Repair>)> {
+    fn new(mesh: &Mesh, preset: Preset) -> Result<(Self, Vec<Repair>)> {
         let repaired = repair(mesh)?;
-        let into = to_unit_cube(&repaired.mesh)?;
-        let positions = repaired.mesh.positions.iter().map(|point| into * point).collect();
-        let Ordered { mesh, former } = ordered(&Mesh { positions, faces: repaired.mesh.faces });
+        let mut cube = repaired.mesh;
+        // The paper's unit cube is that of the input's axes.
+        let into = match preset {
+            Preset::Default => to_own_cube(&cube)?,
+            Preset::Paper => to_unit_cube(&cube)?,
+        };
+        cube.positions.iter_mut().for_each(|point| *point = into * *point);
+        let Ordered { mesh, former } = ordered(&cube);
         let mut new = vec![0; former.len()];
         former.iter().zip(0..).for_each(|(&old, face)| new[old as usize] = face);
         let clean = Self {

@@ -1,5 +1,6 @@
 //! What happens to a mesh before surfaces are sought: unit cube, subdivision, noise, normals.
 
+mod axes;
 mod back;
 pub mod noise;
 pub mod normals;
@@ -7,6 +8,7 @@ mod order;
 mod subdivide;
 mod unit_cube;
 
+pub use axes::to_own_cube;
 pub use back::{Returned, labels_back};
 pub use order::{Ordered, ordered};
 pub use subdivide::{Subdivided, subdivide};

@@ -164,3 +164,5 @@ impl Surface {
 mod refine_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod uncertainty_tests;
