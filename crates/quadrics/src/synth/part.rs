@@ -3,6 +3,7 @@
 use super::build::Builder;
 use super::catalogue;
 use crate::error::{Error, Result};
+use crate::math::Similarity;
 use crate::mesh::{Geometry, Mesh};
 use crate::surface::Surface;
 
@@ -15,6 +16,16 @@ pub struct Part {
     pub labels: Vec<u32>,
     /// The surface of every region. A plane's normal points outward.
     pub surfaces: Vec<Surface>,
+}
+
+impl Part {
+    /// The same part in another frame and unit.
+    pub fn transformed(&self, by: &Similarity) -> Self {
+        let positions = self.mesh.positions.iter().map(|point| by * point).collect();
+        let surfaces = self.surfaces.iter().map(|surface| surface.transformed(by)).collect();
+        let mesh = Mesh { positions, faces: self.mesh.faces.clone() };
+        Self { mesh, labels: self.labels.clone(), surfaces }
+    }
 }
 
 /// How much more or fewer faces than asked for a part may have.

@@ -1,6 +1,7 @@
 //! What holds for every part.
 
 use super::*;
+use crate::math::{Similarity, Vector};
 use crate::mesh::{Adjacency, Geometry, NONE};
 use crate::partition::{components, region_count};
 
@@ -20,8 +21,11 @@ fn volume(part: &Part) -> f64 {
 }
 
 #[test]
-fn every_vertex_of_a_region_lies_on_its_surface() {
-    for (name, part) in parts() {
+fn every_vertex_of_a_region_lies_on_its_surface_also_when_moved() {
+    let by = Similarity::new(Vector::new(30.0, -9.0, 50.0), Vector::new(0.3, -1.0, 0.7), 0.1);
+    for (name, part) in
+        parts().flat_map(|(name, part)| [(name, part.transformed(&by)), (name, part)])
+    {
         let size = part.mesh.size();
         for (face, &label) in part.labels.iter().enumerate() {
             for point in part.mesh.corners(face) {
