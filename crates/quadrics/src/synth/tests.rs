@@ -138,6 +138,11 @@ fn triangles_are_those_of_a_decent_mesher() {
 fn what_cannot_be_made_is_refused_with_the_way_out() {
     let text = part("flange", 1000).unwrap_err().to_string();
     assert!(text.contains("flange") && text.contains("demo"), "{text}");
-    let text = part("plate:100", 100).unwrap_err().to_string();
-    assert!(text.contains("too few"), "{text}");
+    for (name, faces) in [("plate:100", 100), ("plate:999999999999", 10_000), ("demo", 0)] {
+        let text = part(name, faces).unwrap_err().to_string();
+        assert!(text.contains("too few"), "{text}");
+    }
+    assert!(part("shaft", usize::MAX).unwrap_err().to_string().contains("too many"));
+    assert!(part("plate:-1", 10_000).is_err());
+    assert_eq!(part("plate:0", 1_000).unwrap().surfaces.len(), 6);
 }
