@@ -10,6 +10,7 @@ use std::collections::BinaryHeap;
 use rand::RngExt;
 use rand::seq::SliceRandom;
 
+use super::discs::Discs;
 use super::field::Field;
 use super::part::Part;
 use crate::context::Context;
@@ -189,40 +190,6 @@ impl Cells {
         }
         drop_doubled(&mut made);
         made
-    }
-}
-
-/// Which vertices are too near to a point to become one.
-struct Discs {
-    covered: Vec<bool>,
-    seen: Vec<u32>,
-    stack: Vec<u32>,
-    count: u32,
-}
-
-impl Discs {
-    fn new(vertices: usize) -> Self {
-        let (covered, seen) = (vec![false; vertices], vec![0; vertices]);
-        Self { covered, seen, stack: Vec::new(), count: 0 }
-    }
-
-    /// Covers the vertices around `start` that are nearer to `point` than `radius`.
-    fn cover(&mut self, mesh: &Mesh, adjacency: &Adjacency, start: u32, point: Point, radius: f64) {
-        self.count += 1;
-        self.stack.push(start);
-        self.seen[start as usize] = self.count;
-        // In any case: every point must take a vertex out of the game.
-        self.covered[start as usize] = true;
-        while let Some(vertex) = self.stack.pop() {
-            for &next in adjacency.around(vertex).iter().flat_map(|&f| &mesh.faces[f as usize]) {
-                let (seen, place) = (&mut self.seen[next as usize], mesh.positions[next as usize]);
-                if *seen != self.count && (place - point).norm_squared() < radius * radius {
-                    *seen = self.count;
-                    self.covered[next as usize] = true;
-                    self.stack.push(next);
-                }
-            }
-        }
     }
 }
 

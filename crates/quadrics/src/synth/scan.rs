@@ -24,6 +24,9 @@ const RAGGED: f64 = 0.25;
 /// Correlation lengths below this fraction of the size are none, and 1 / 0 is no wave.
 const SHORTEST: f64 = 1e-9;
 
+/// A scan is made from a mesh up to forty times finer, whose half-edges 32 bits must number.
+const MOST_FACES: usize = 30_000_000;
+
 /// What a scanner does to a part. Lengths are fractions of the longest side of the part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scanner {
@@ -72,6 +75,10 @@ impl Scanner {
                 let text = format!("{name} is {value}: give a fraction of the size, such as 0.01");
                 return Err(Error::Option(text));
             }
+        }
+        if self.faces > MOST_FACES {
+            let text = format!("{} faces are too many: {MOST_FACES} is the most", self.faces);
+            return Err(Error::Option(text));
         }
         if self.faces == 0 || self.holes.0 > self.holes.1 || !(low <= high && high.is_finite()) {
             let text = "a scanner needs a face, and its ranges the lesser number first";
