@@ -4,11 +4,14 @@
 
 pub mod context;
 pub mod error;
+pub mod format;
 pub mod math;
 pub mod mesh;
 pub mod options;
 pub mod partition;
 pub mod pipeline;
+pub mod prepare;
+pub mod recognise;
 pub mod result;
 pub mod surface;
 pub mod synth;

@@ -1,10 +1,21 @@
 //! Triangle meshes: positions and faces, and what follows from them alone.
 
 mod adjacency;
+mod caps;
+mod edges;
 mod geometry;
+mod inspect;
+mod orient;
+mod repair;
+mod substitute;
+mod validate;
+pub(crate) mod weld;
 
 pub use adjacency::{Adjacency, NONE};
 pub use geometry::Geometry;
+pub use inspect::{Inspection, inspect};
+pub use repair::{Repaired, repair};
+pub use validate::{LARGEST_COORDINATE, check_indices, validate};
 
 use crate::math::Point;
 

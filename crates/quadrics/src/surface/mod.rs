@@ -5,16 +5,22 @@
 
 mod cone;
 mod cylinder;
+mod local;
 mod plane;
 mod quadric;
+mod refine;
+pub mod select;
 mod sphere;
+pub mod start;
 mod torus;
 
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use plane::Plane;
 pub use quadric::Quadric;
+pub use refine::{Fit, centroid, refine, refine_within};
 pub use sphere::Sphere;
+pub use start::Samples;
 pub use torus::Torus;
 
 use crate::math::{Point, Similarity, Unit};
@@ -134,5 +140,7 @@ impl Surface {
     }
 }
 
+#[cfg(test)]
+mod refine_tests;
 #[cfg(test)]
 mod tests;

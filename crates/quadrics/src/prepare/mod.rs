@@ -1,0 +1,4 @@
+//! What happens to a mesh before surfaces are sought.
+
+pub mod noise;
+pub mod normals;

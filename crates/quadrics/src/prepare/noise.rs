@@ -1,0 +1,86 @@
+//! How noisy a mesh is, from the mesh alone.
+//!
+//! Residuals of height fields of second degree over small neighbourhoods. Creases inflate most of
+//! them, so a low quantile speaks for the mesh; on a clean mesh it is zero.
+
+use nalgebra::{SMatrix, SVector};
+use rayon::prelude::*;
+
+use crate::math::{Point, Vector, frame};
+use crate::mesh::{Adjacency, Mesh};
+use crate::surface::{Samples, Surface, start};
+
+/// Neighbourhoods that are looked at.
+const NEIGHBOURHOODS: usize = 600;
+/// Vertices of a neighbourhood: about three rings.
+const VERTICES: usize = 30;
+/// The quantile of their residuals that speaks for the mesh, and its expectation for pure noise.
+const QUANTILE: f64 = 0.2;
+const QUANTILE_OF_NOISE: f64 = 0.88;
+
+/// Standard deviation of the vertices across the surface, at the scale of a few edges, in the unit
+/// of the mesh.
+pub fn position(mesh: &Mesh, adjacency: &Adjacency) -> f64 {
+    let step = (mesh.positions.len() / NEIGHBOURHOODS).max(1);
+    let mut residuals: Vec<f64> = (0..mesh.positions.len())
+        .step_by(step)
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .filter_map(|vertex| residual(&neighbourhood(mesh, adjacency, vertex as u32)))
+        .collect();
+    if residuals.is_empty() {
+        return 0.0;
+    }
+    residuals.sort_unstable_by(f64::total_cmp);
+    residuals[(residuals.len() as f64 * QUANTILE) as usize] / QUANTILE_OF_NOISE
+}
+
+/// The nearest vertices over the mesh, breadth first.
+fn neighbourhood(mesh: &Mesh, adjacency: &Adjacency, vertex: u32) -> Vec<Point> {
+    let mut found = vec![vertex];
+    let mut next = 0;
+    while next < found.len() && found.len() < VERTICES {
+        for &face in adjacency.around(found[next]) {
+            for &other in &mesh.faces[face as usize] {
+                if !found.contains(&other) {
+                    found.push(other);
+                }
+            }
+        }
+        next += 1;
+    }
+    found.into_iter().map(|v| mesh.positions[v as usize]).collect()
+}
+
+/// Root mean square distance from a height field of second degree, corrected for its six unknowns.
+fn residual(points: &[Point]) -> Option<f64> {
+    if points.len() < 12 {
+        return None;
+    }
+    let Surface::Plane(base) = start::plane(Samples { points, normals: &[] })? else { return None };
+    let center = crate::surface::centroid(points)?;
+    let (u, v) = frame(&base.normal);
+    let spread = points.iter().map(|p| (p - center).norm_squared()).sum::<f64>();
+    let scale = (spread / points.len() as f64).sqrt();
+    let row = |d: Vector| {
+        let (x, y) = (u.dot(&d) / scale, v.dot(&d) / scale);
+        SVector::<f64, 6>::from([1.0, x, y, x * x, x * y, y * y])
+    };
+    let mut matrix = SMatrix::<f64, 6, 6>::zeros();
+    let mut right = SVector::<f64, 6>::zeros();
+    for p in points {
+        let d = p - center;
+        let row = row(d);
+        matrix += row * row.transpose();
+        right += row * base.normal.dot(&d);
+    }
+    let c = matrix.cholesky()?.solve(&right);
+    let cost: f64 = points
+        .iter()
+        .map(|p| {
+            let d = p - center;
+            (base.normal.dot(&d) - c.dot(&row(d))).powi(2)
+        })
+        .sum();
+    Some((cost / (points.len() - 6) as f64).sqrt())
+}

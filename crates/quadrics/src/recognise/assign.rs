@@ -1,0 +1,211 @@
+//! Which face belongs to which surface: least energy by expansion moves (Boykov, Veksler and Zabih,
+//! PAMI 2001), over the faces where two surfaces compete.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::cut::Cut;
+use super::scene::{Marks, Scene};
+use crate::partition::{UNLABELLED, components};
+use crate::surface::{Shape, Surface};
+
+/// A surface in the partition.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The surface.
+    pub surface: Surface,
+    /// +1 where the mesh's normals agree with the surface's, else -1.
+    pub side: f64,
+}
+
+/// The normal term counts at most so much: creases turn filtered normals by any angle.
+const NORMAL_CAP: f64 = 6.0;
+/// What a face of a free-form region costs.
+const FREE_FORM: f64 = 8.0;
+/// Cost of a mean edge between two regions: smooth boundaries under independent noise; on scans,
+/// whose edges are a triangle wide, little.
+const SMOOTHNESS: f64 = 1.0;
+const SMOOTHNESS_SCAN: f64 = 0.3;
+/// No face counts for more when partitions are compared: an outlier is an outlier.
+pub const WORST: f64 = 12.0;
+/// A face is worth asking when the new surface is at most so much worse than its own.
+const SLACK: f64 = 4.0;
+
+/// Minus the log-likelihood of a face on a surface: `d²/2σ²` of its corners and a capped normal term.
+pub fn face_cost(scene: &Scene, model: &Model, face: usize) -> f64 {
+    match &model.surface {
+        Surface::Plane(s) => cost(scene, s, model.side, face),
+        Surface::Sphere(s) => cost(scene, s, model.side, face),
+        Surface::Cylinder(s) => cost(scene, s, model.side, face),
+        Surface::Cone(s) => cost(scene, s, model.side, face),
+        Surface::Torus(s) => cost(scene, s, model.side, face),
+        Surface::Quadric(s) => cost(scene, s, model.side, face),
+        Surface::FreeForm => FREE_FORM,
+    }
+}
+
+fn cost<S: Shape>(scene: &Scene, shape: &S, side: f64, face: usize) -> f64 {
+    let sigma = scene.evidence.sigma;
+    let position = scene.squared_distance(shape, face) / (2.0 * sigma * sigma);
+    let normal = scene.normal_deviation(shape, face, side) / (2.0 * scene.normal_sigma.powi(2));
+    position + normal.min(NORMAL_CAP)
+}
+
+/// Hands unlabelled faces to a neighbour's surface, the best fitting face first.
+pub fn flood(scene: &Scene, models: &[Model], labels: &mut [u32]) {
+    let mut queue = BinaryHeap::new();
+    // The bits of a non-negative float sort like the number itself.
+    let key = |cost: f64| (cost.max(0.0) as f32).to_bits();
+    let push = |queue: &mut BinaryHeap<_>, face: usize, label: u32| {
+        let cost = face_cost(scene, &models[label as usize], face);
+        queue.push(Reverse((key(cost), face as u32, label)));
+    };
+    for face in 0..labels.len() {
+        if labels[face] == UNLABELLED {
+            for other in scene.adjacency.across(face).filter(|&o| labels[o] != UNLABELLED) {
+                push(&mut queue, face, labels[other]);
+            }
+        }
+    }
+    while let Some(Reverse((_, face, label))) = queue.pop() {
+        let face = face as usize;
+        if labels[face] != UNLABELLED {
+            continue;
+        }
+        labels[face] = label;
+        for other in scene.adjacency.across(face).filter(|&o| labels[o] == UNLABELLED) {
+            push(&mut queue, other, label);
+        }
+    }
+}
+
+/// Lets every surface in turn take the faces that lower the energy.
+pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
+    let mut current: Vec<f64> = labels
+        .iter()
+        .enumerate()
+        .map(|(face, &label)| face_cost(scene, &models[label as usize], face))
+        .collect();
+    let mut regions = vec![Vec::new(); models.len()];
+    for (face, &label) in labels.iter().enumerate() {
+        regions[label as usize].push(face as u32);
+    }
+    let mut seen = Marks::default();
+    for (label, faces) in regions.iter().enumerate() {
+        expand_one(scene, models, label as u32, faces, labels, &mut current, &mut seen);
+    }
+}
+
+fn expand_one(
+    scene: &Scene,
+    models: &[Model],
+    label: u32,
+    region: &[u32],
+    labels: &mut [u32],
+    current: &mut [f64],
+    seen: &mut Marks,
+) {
+    let model = &models[label as usize];
+    let weight = if scene.correlated() { SMOOTHNESS_SCAN } else { SMOOTHNESS } / scene.edge;
+    // Faces of others, reached from the region, that might come over.
+    seen.clear(labels.len());
+    let mut active: Vec<u32> = Vec::new();
+    let mut costs: Vec<f64> = Vec::new();
+    let mut next = 0;
+    let mut border: Vec<u32> = region
+        .iter()
+        .copied()
+        .filter(|&f| labels[f as usize] == label)
+        .flat_map(|f| scene.adjacency.neighbours[f as usize])
+        .filter(|&f| f != crate::mesh::NONE && labels[f as usize] != label)
+        .collect();
+    loop {
+        for face in border.drain(..) {
+            if seen.mark(face) {
+                let cost = face_cost(scene, model, face as usize);
+                if cost < current[face as usize] + SLACK {
+                    active.push(face);
+                    costs.push(cost);
+                }
+            }
+        }
+        if next == active.len() {
+            break;
+        }
+        let face = active[next] as usize;
+        next += 1;
+        border
+            .extend(scene.adjacency.across(face).filter(|&f| labels[f] != label).map(|f| f as u32));
+    }
+    if active.is_empty() {
+        return;
+    }
+    let mut index = std::collections::HashMap::with_capacity(active.len());
+    active.iter().enumerate().for_each(|(i, &face)| {
+        index.insert(face, i);
+    });
+    // Source: the face comes over. Sink: it stays.
+    let mut cut = Cut::new(active.len());
+    for (i, &face) in active.iter().enumerate() {
+        let face = face as usize;
+        let (mut stay, mut come) = (current[face], costs[i]);
+        for (edge, &other) in scene.adjacency.neighbours[face].iter().enumerate() {
+            if other == crate::mesh::NONE {
+                continue;
+            }
+            let [a, b] = [edge, (edge + 1) % 3].map(|k| scene.mesh.faces[face][k] as usize);
+            let length = weight * (scene.mesh.positions[a] - scene.mesh.positions[b]).norm();
+            let differ = if labels[other as usize] == labels[face] { 0.0 } else { length };
+            match index.get(&other) {
+                // Both come: no border. One comes: a border. Both stay: as it was.
+                Some(&j) if j > i => {
+                    stay += differ;
+                    cut.edge(i, j, length, length - differ);
+                }
+                Some(_) => {}
+                None if labels[other as usize] == label => stay += length,
+                None => {
+                    stay += differ;
+                    come += length;
+                }
+            }
+        }
+        cut.node(i, stay, come);
+    }
+    for (i, stays) in cut.solve().into_iter().enumerate() {
+        if !stays {
+            labels[active[i] as usize] = label;
+            current[active[i] as usize] = costs[i];
+        }
+    }
+}
+
+/// Fewest faces of a piece that a cut left apart from its region and that stands on its own.
+const PIECE: u32 = 40;
+
+/// Makes every region connected: large pieces become regions on the same surface, crumbs join a
+/// neighbour.
+pub fn connect(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
+    let (component, sizes) = components(labels, &scene.adjacency);
+    let mut largest = vec![UNLABELLED; models.len()];
+    for (face, &label) in labels.iter().enumerate() {
+        let best = &mut largest[label as usize];
+        if *best == UNLABELLED || sizes[component[face] as usize] > sizes[*best as usize] {
+            *best = component[face];
+        }
+    }
+    let mut own: Vec<u32> = vec![UNLABELLED; sizes.len()];
+    for face in 0..labels.len() {
+        let piece = component[face] as usize;
+        let label = labels[face];
+        if component[face] == largest[label as usize] {
+            continue;
+        }
+        if own[piece] == UNLABELLED && sizes[piece] >= PIECE {
+            own[piece] = models.len() as u32;
+            models.push(models[label as usize].clone());
+        }
+        labels[face] = own[piece];
+    }
+    flood(scene, models, labels);
+}

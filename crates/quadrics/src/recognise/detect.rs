@@ -1,0 +1,297 @@
+//! Surfaces from neighbourhoods: draw where nothing is explained yet, fit, grow, keep the largest.
+
+use rand::RngExt;
+
+use super::scene::{Marks, Scene};
+use crate::context::Context;
+use crate::error::Result;
+use crate::partition::UNLABELLED;
+use crate::surface::select::{self, Choice};
+use crate::surface::{Shape, Surface};
+
+/// Neighbourhood sizes in faces. A fit needs about a dozen vertices to mean anything, and a large
+/// neighbourhood is worth trying only where the smaller one was one surface.
+const BALLS: [usize; 5] = [14, 30, 70, 180, 450];
+/// Neighbourhoods of fewer faces may be too small for the surface they lie on.
+const SHOWS: usize = 70;
+/// A face that is out of play.
+pub const TAKEN: u32 = UNLABELLED - 1;
+/// Seeds that compete for being accepted first.
+const BATCH: usize = 12;
+/// Adjacent faces whose normals differ more are not in one neighbourhood, in radians.
+const CREASE: f64 = 0.6;
+/// Faces within so many sigmas belong to a growing region.
+const REACH: f64 = 2.5;
+/// Vertices that a fit looks at while growing.
+const SAMPLES: usize = 120;
+/// Fewest faces of a region.
+const FEWEST: usize = 10;
+/// Most refits of a growing region.
+const REFITS: usize = 8;
+
+/// A surface and the connected faces that it explains.
+pub struct Candidate {
+    /// The surface and how well it fits.
+    pub choice: Choice,
+    /// Its faces.
+    pub faces: Vec<u32>,
+    /// +1 where the mesh's normals agree with the surface's, else -1.
+    pub side: f64,
+}
+
+/// Scratch sets that are made once.
+#[derive(Default)]
+pub struct Workspace {
+    /// For vertices.
+    pub vertices: Marks,
+    /// For faces.
+    pub faces: Marks,
+}
+
+/// Covers the mesh with surfaces, largest first; faces that nothing explains stay unlabelled.
+///
+/// # Errors
+/// Cancellation.
+pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Result<Vec<Candidate>> {
+    let all: Vec<u32> = (0..labels.len() as u32).collect();
+    let mut dead = vec![false; labels.len()];
+    cover(context, scene, labels, &all, &BALLS, &mut dead)
+}
+
+/// The same within some unlabelled faces, with small neighbourhoods only: what hides inside a region.
+///
+/// # Errors
+/// Cancellation.
+pub fn detect_within(
+    context: &mut Context,
+    scene: &Scene,
+    labels: &mut [u32],
+    faces: &[u32],
+    dead: &mut [bool],
+) -> Result<Vec<Candidate>> {
+    let found = cover(context, scene, labels, faces, &BALLS[..2], dead);
+    faces.iter().for_each(|&f| dead[f as usize] = false);
+    found
+}
+
+fn cover(
+    context: &mut Context,
+    scene: &Scene,
+    labels: &mut [u32],
+    faces: &[u32],
+    balls: &[usize],
+    dead: &mut [bool],
+) -> Result<Vec<Candidate>> {
+    let mut found: Vec<Candidate> = Vec::new();
+    let mut work = Workspace::default();
+    let mut open: Vec<u32> = faces.to_vec();
+    let total = open.len().max(1) as f64;
+    loop {
+        open.retain(|&f| labels[f as usize] == UNLABELLED && !dead[f as usize]);
+        if open.is_empty() {
+            return Ok(found);
+        }
+        context.step("detect", 1.0 - open.len() as f64 / total)?;
+        let mut batch = Vec::new();
+        for _ in 0..BATCH {
+            let seed = open[context.rng.random_range(0..open.len())];
+            match propose_from(scene, seed, labels, balls, &mut work) {
+                Some(candidate) if candidate.faces.len() >= FEWEST => batch.push(candidate),
+                _ => bury(scene, seed, dead),
+            }
+        }
+        batch.sort_by_key(|c| std::cmp::Reverse(c.faces.len()));
+        for mut candidate in batch {
+            let before = candidate.faces.len();
+            candidate.faces.retain(|&f| labels[f as usize] == UNLABELLED);
+            if candidate.faces.len() * 10 >= before * 9 {
+                let id = found.len() as u32;
+                candidate.faces.iter().for_each(|&f| labels[f as usize] = id);
+                found.push(candidate);
+            }
+        }
+    }
+}
+
+/// A seed that led nowhere is not tried again, nor are the faces beside it.
+fn bury(scene: &Scene, seed: u32, dead: &mut [bool]) {
+    dead[seed as usize] = true;
+    scene.adjacency.across(seed as usize).for_each(|f| dead[f] = true);
+}
+
+/// The largest neighbourhood of a seed that is one surface, grown.
+pub fn propose(
+    scene: &Scene,
+    seed: u32,
+    labels: &[u32],
+    work: &mut Workspace,
+) -> Option<Candidate> {
+    propose_from(scene, seed, labels, &BALLS, work)
+}
+
+fn propose_from(
+    scene: &Scene,
+    seed: u32,
+    labels: &[u32],
+    balls: &[usize],
+    work: &mut Workspace,
+) -> Option<Candidate> {
+    let mut best: Option<Candidate> = None;
+    for &size in balls {
+        let ball = neighbourhood(scene, seed, size, labels, &mut work.faces);
+        if ball.len() * 2 < size && best.is_some() {
+            break;
+        }
+        let Some(choice) = fit(scene, &ball, work).filter(|c| adequate(c, ball.len())) else {
+            // A general quadric does not show before there are more vertices than coefficients.
+            if best.is_none() && size < SHOWS { continue } else { break }
+        };
+        let side = side_of(scene, &choice.surface, &ball);
+        best = Some(Candidate { choice, faces: ball, side });
+    }
+    grow(scene, best?, labels, work)
+}
+
+/// Breadth first over faces that nothing explains, not across creases.
+fn neighbourhood(
+    scene: &Scene,
+    seed: u32,
+    size: usize,
+    labels: &[u32],
+    seen: &mut Marks,
+) -> Vec<u32> {
+    let limit = CREASE.cos();
+    seen.clear(labels.len());
+    seen.mark(seed);
+    let mut ball = vec![seed];
+    let mut next = 0;
+    while next < ball.len() && ball.len() < size {
+        let face = ball[next] as usize;
+        next += 1;
+        for other in scene.adjacency.across(face) {
+            if labels[other] == UNLABELLED
+                && scene.normals[face].dot(&scene.normals[other]) > limit
+                && seen.mark(other as u32)
+            {
+                ball.push(other as u32);
+            }
+        }
+    }
+    ball
+}
+
+fn fit(scene: &Scene, faces: &[u32], work: &mut Workspace) -> Option<Choice> {
+    let gathered = scene.samples(faces, SAMPLES, &mut work.vertices);
+    let choices = select::choose(gathered.samples(), gathered.total, scene.evidence);
+    choices.into_iter().next()
+}
+
+/// Whether nothing but noise is left: the mean square of `n` residuals scatters by `sqrt(2/n)`.
+fn adequate(choice: &Choice, faces: usize) -> bool {
+    let vertices = faces as f64 / 2.0 + 3.0;
+    choice.misfit < 1.2 + 3.0 * (2.0 / vertices).sqrt()
+}
+
+/// +1 where the faces' normals agree with the surface's.
+pub fn side_of(scene: &Scene, surface: &Surface, faces: &[u32]) -> f64 {
+    let step = (faces.len() / 64).max(1);
+    let agreement: f64 = faces
+        .iter()
+        .step_by(step)
+        .filter_map(|&f| {
+            let normal = surface.normal(scene.geometry.barycentres[f as usize])?;
+            Some(normal.dot(&scene.normals[f as usize]))
+        })
+        .sum();
+    if agreement < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// Alternates between taking the connected faces near the surface and fitting it to them.
+fn grow(
+    scene: &Scene,
+    start: Candidate,
+    labels: &[u32],
+    work: &mut Workspace,
+) -> Option<Candidate> {
+    let mut current = start;
+    let mut fitted = current.faces.len();
+    for _ in 0..REFITS {
+        let faces = connected_inliers(scene, &current, labels, &mut work.faces);
+        if faces.len() < FEWEST {
+            return None;
+        }
+        let grown = faces.len() as f64 / fitted as f64;
+        let shrunk = faces.len() < current.faces.len();
+        current.faces = faces;
+        if !(0.97..1.03).contains(&grown) && !shrunk {
+            fitted = current.faces.len();
+            let Some(choice) = fit(scene, &current.faces, work) else { break };
+            current.side = side_of(scene, &choice.surface, &current.faces);
+            current.choice = choice;
+        } else {
+            break;
+        }
+    }
+    Some(current)
+}
+
+/// Faces that the surface explains and that hang together with the candidate's.
+fn connected_inliers(
+    scene: &Scene,
+    candidate: &Candidate,
+    labels: &[u32],
+    seen: &mut Marks,
+) -> Vec<u32> {
+    match &candidate.choice.surface {
+        Surface::Plane(s) => inliers_of(scene, s, candidate, labels, seen),
+        Surface::Sphere(s) => inliers_of(scene, s, candidate, labels, seen),
+        Surface::Cylinder(s) => inliers_of(scene, s, candidate, labels, seen),
+        Surface::Cone(s) => inliers_of(scene, s, candidate, labels, seen),
+        Surface::Torus(s) => inliers_of(scene, s, candidate, labels, seen),
+        Surface::Quadric(s) => inliers_of(scene, s, candidate, labels, seen),
+        Surface::FreeForm => Vec::new(),
+    }
+}
+
+fn inliers_of<S: Shape>(
+    scene: &Scene,
+    shape: &S,
+    candidate: &Candidate,
+    labels: &[u32],
+    seen: &mut Marks,
+) -> Vec<u32> {
+    let near = (REACH * scene.evidence.sigma).powi(2);
+    let turn = (REACH * scene.normal_sigma).max(0.2).powi(2);
+    let explains = |face: usize| {
+        labels[face] == UNLABELLED
+            && scene.squared_distance(shape, face) < near
+            && scene.normal_deviation(shape, face, candidate.side) < turn
+    };
+    seen.clear(labels.len());
+    let mut faces: Vec<u32> = Vec::with_capacity(candidate.faces.len() * 2);
+    // Only the largest connected part counts: a grown region may have been cut by a refit.
+    let mut best: (usize, usize) = (0, 0);
+    for &start in &candidate.faces {
+        if seen.has(start) || !explains(start as usize) {
+            continue;
+        }
+        seen.mark(start);
+        let from = faces.len();
+        faces.push(start);
+        let mut next = from;
+        while next < faces.len() {
+            let face = faces[next] as usize;
+            next += 1;
+            for other in scene.adjacency.across(face) {
+                if !seen.has(other as u32) && explains(other) {
+                    seen.mark(other as u32);
+                    faces.push(other as u32);
+                }
+            }
+        }
+        if faces.len() - from > best.1 - best.0 {
+            best = (from, faces.len());
+        }
+    }
+    faces[best.0..best.1].to_vec()
+}

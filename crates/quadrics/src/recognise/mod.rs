@@ -1,0 +1,119 @@
+//! `preset="default"`: the surfaces of a part, whatever its noise, with nothing to tune.
+
+pub mod assign;
+mod cut;
+pub mod detect;
+pub mod evidence;
+pub mod moves;
+pub mod scene;
+pub mod split;
+
+use crate::context::Context;
+use crate::error::Result;
+use crate::math::{Point, Vector};
+use crate::mesh::Mesh;
+use crate::options::Options;
+use crate::partition::{Labels, UNLABELLED, components};
+use crate::surface::select::Evidence;
+use crate::surface::{Plane, Surface};
+use assign::Model;
+use scene::Scene;
+
+/// Labels of all faces, and a surface for every label.
+pub struct Outcome {
+    /// Region of every face.
+    pub labels: Labels,
+    /// Surface of every region, in the frame of the mesh.
+    pub surfaces: Vec<Surface>,
+    /// Noise, in the unit of the mesh.
+    pub evidence: Evidence,
+    /// Standard deviation of the filtered normals, in radians.
+    pub normal_sigma: f64,
+}
+
+/// Recognises the surfaces of a mesh that lies in the unit cube.
+///
+/// # Errors
+/// Cancellation.
+pub fn recognise(
+    context: &mut Context,
+    mesh: &Mesh,
+    _options: &Options,
+    initial_labels: Option<&[u32]>,
+) -> Result<Outcome> {
+    let mut scene = context.timed("prepare", |_| Ok(Scene::new(mesh)))?;
+    context.timed("noise", |context| evidence::measure(context, &mut scene))?;
+    let (mut labels, mut models) = match initial_labels {
+        Some(labels) => (labels.to_vec(), Vec::new()),
+        None => context.timed("detect", |context| start(context, &scene))?,
+    };
+    if initial_labels.is_some() {
+        let count = crate::partition::region_count(&labels);
+        let unknown = Plane::through(Point::origin(), Vector::z_axis());
+        models = vec![Model { surface: Surface::Plane(unknown), side: 1.0 }; count];
+        moves::fit(&scene, &mut models, &labels);
+    }
+    for round in 0..ROUNDS {
+        context.step("optimise", round as f64 / ROUNDS as f64)?;
+        context.timed("assign", |_| {
+            assign::expand(&scene, &models, &mut labels);
+            assign::connect(&scene, &mut models, &mut labels);
+            Ok(())
+        })?;
+        context.timed("moves", |_| {
+            moves::tidy(&mut models, &mut labels);
+            moves::drop_needless(&scene, &models, &mut labels);
+            moves::tidy(&mut models, &mut labels);
+            Ok(())
+        })?;
+        context.timed("fit", |_| {
+            moves::fit(&scene, &mut models, &labels);
+            Ok(())
+        })?;
+        if round + 1 < ROUNDS {
+            context.timed("split", |context| {
+                split::split(context, &scene, &mut models, &mut labels)
+            })?;
+            assign::connect(&scene, &mut models, &mut labels);
+        }
+        context.timed("merge", |_| {
+            moves::merge(&scene, &mut models, &mut labels);
+            Ok(())
+        })?;
+    }
+    let surfaces = models.into_iter().map(|m| m.surface).collect();
+    Ok(Outcome { labels, surfaces, evidence: scene.evidence, normal_sigma: scene.normal_sigma })
+}
+
+/// Rounds of the loop.
+const ROUNDS: usize = 4;
+/// Connected faces that no surface explains and that are more than this are free-form.
+const FREE_FORM: u32 = 60;
+
+/// Detection, and what it left: large rests are free-form, small ones join a neighbour.
+fn start(context: &mut Context, scene: &Scene) -> Result<(Labels, Vec<Model>)> {
+    let mut labels = vec![UNLABELLED; scene.mesh.faces.len()];
+    let found = detect::detect(context, scene, &mut labels)?;
+    let mut models: Vec<Model> =
+        found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }).collect();
+    let (component, sizes) = components(&labels, &scene.adjacency);
+    let mut own = vec![UNLABELLED; sizes.len()];
+    for face in 0..labels.len() {
+        let piece = component[face] as usize;
+        if labels[face] == UNLABELLED && (sizes[piece] >= FREE_FORM || models.is_empty()) {
+            if own[piece] == UNLABELLED {
+                own[piece] = models.len() as u32;
+                models.push(Model { surface: Surface::FreeForm, side: 1.0 });
+            }
+            labels[face] = own[piece];
+        }
+    }
+    assign::flood(scene, &models, &mut labels);
+    // A component of the mesh without any surface.
+    if labels.contains(&UNLABELLED) {
+        let rest = models.len() as u32;
+        models.push(Model { surface: Surface::FreeForm, side: 1.0 });
+        labels.iter_mut().filter(|l| **l == UNLABELLED).for_each(|l| *l = rest);
+    }
+    Ok((labels, models))
+}

@@ -1,0 +1,168 @@
+//! What the recognition looks at: a mesh in the unit cube, its neighbourhoods, its noise.
+
+use crate::math::{Point, Vector};
+use crate::mesh::{Adjacency, Geometry, Mesh};
+use crate::prepare::{noise, normals};
+use crate::surface::Shape;
+use crate::surface::select::Evidence;
+
+/// A mesh in the unit cube and all that is derived from it once.
+pub struct Scene<'a> {
+    /// Positions and faces.
+    pub mesh: &'a Mesh,
+    /// Areas, raw normals, barycentres.
+    pub geometry: Geometry,
+    /// Neighbours.
+    pub adjacency: Adjacency,
+    /// Face normals, filtered as far as the noise asks.
+    pub normals: Vec<Vector>,
+    /// Noise of the vertices.
+    pub evidence: Evidence,
+    /// Standard deviation of the filtered normals about those of the surfaces, in radians.
+    pub normal_sigma: f64,
+    /// Mean edge length.
+    pub edge: f64,
+}
+
+/// Rounding of the input's coordinates, in sizes: no sigma is smaller.
+pub const ROUNDING: f64 = 2e-6;
+/// Normal noise below which nothing is filtered, in radians.
+const QUIET: f64 = 0.03;
+/// Least standard deviation of normals: facets of a curved surface are not tangent to it.
+pub const NORMAL_FLOOR: f64 = 0.04;
+
+impl<'a> Scene<'a> {
+    /// Looks at a mesh.
+    pub fn new(mesh: &'a Mesh) -> Self {
+        let geometry = Geometry::new(mesh);
+        let adjacency = Adjacency::new(&mesh.faces, mesh.positions.len());
+        let sigma = noise::position(mesh, &adjacency).max(ROUNDING);
+        let area = geometry.areas.iter().sum::<f64>() / geometry.areas.len().max(1) as f64;
+        // The edge of an equilateral triangle of mean area.
+        let edge = (area * 4.0 / 3f64.sqrt()).sqrt();
+        // A normal errs by about twice the noise over the edge.
+        let raw = 2.0 * sigma / edge;
+        let (filtered, normal_sigma) = if raw < QUIET {
+            (geometry.normals.clone(), NORMAL_FLOOR)
+        } else {
+            let rounds = (3.0 + 6.0 * raw).round().min(10.0) as usize;
+            let rings = normals::Rings::new(mesh, &adjacency);
+            let reach = 0.2 + 0.55 * raw;
+            (normals::filter(&geometry, &rings, rounds, reach), NORMAL_FLOOR + 0.2 * raw)
+        };
+        let evidence = Evidence { sigma, independent: 1.0 };
+        Self { mesh, geometry, adjacency, normals: filtered, evidence, normal_sigma, edge }
+    }
+
+    /// Squared distance of a face's corners from a surface, their mean.
+    pub fn squared_distance<S: Shape>(&self, shape: &S, face: usize) -> f64 {
+        let corners = self.mesh.corners(face);
+        corners.into_iter().map(|p| shape.distance(p).powi(2)).sum::<f64>() / 3.0
+    }
+
+    /// Squared difference of the filtered normal and the surface's, whose orientation is free when
+    /// `side` is zero.
+    pub fn normal_deviation<S: Shape>(&self, shape: &S, face: usize, side: f64) -> f64 {
+        let Some(normal) = shape.normal(self.geometry.barycentres[face]) else { return 4.0 };
+        2.0 - 2.0 * side * normal.dot(&self.normals[face])
+    }
+
+    /// Points and normals of at most `limit` vertices of some faces, evenly spread over them.
+    ///
+    /// On scans, vertices that another region shares lie several sigmas off both: they are left out
+    /// where enough others remain.
+    pub fn samples(&self, faces: &[u32], limit: usize, seen: &mut Marks) -> Gathered {
+        let mut vertices = seen.vertices_of(self.mesh, faces);
+        if self.correlated() {
+            let inner =
+                |&(v, _): &(u32, u32)| seen.count(v) == self.adjacency.around(v).len() as u32;
+            let inside: Vec<_> = vertices.iter().copied().filter(inner).collect();
+            if inside.len() >= ENOUGH {
+                vertices = inside;
+            }
+        }
+        let total = vertices.len();
+        let step = (total as f64 / limit as f64).max(1.0);
+        let picked = (0..).map(|i| (f64::from(i) * step) as usize).take_while(|&i| i < total);
+        let (points, normals) = picked
+            .map(|i| vertices[i])
+            .map(|(v, f)| (self.mesh.positions[v as usize], self.normals[f as usize]))
+            .unzip();
+        Gathered { points, normals, total }
+    }
+
+    /// Whether the noise is that of a scan: neighbours err together.
+    pub fn correlated(&self) -> bool {
+        self.evidence.independent < 1.0
+    }
+}
+
+/// Inner vertices that suffice for a fit.
+const ENOUGH: usize = 15;
+
+/// Samples of a set of faces.
+pub struct Gathered {
+    /// Positions of the sampled vertices.
+    pub points: Vec<Point>,
+    /// Filtered normal of a face at each.
+    pub normals: Vec<Vector>,
+    /// Vertices of all the faces.
+    pub total: usize,
+}
+
+impl Gathered {
+    /// As the fits want them.
+    pub fn samples(&self) -> crate::surface::Samples<'_> {
+        crate::surface::Samples { points: &self.points, normals: &self.normals }
+    }
+}
+
+/// Counts per index, all zeroed in constant time.
+#[derive(Default)]
+pub struct Marks {
+    stamp: u32,
+    stamps: Vec<u32>,
+    counts: Vec<u32>,
+}
+
+impl Marks {
+    /// Zeroes everything and makes room for `count` indices.
+    pub fn clear(&mut self, count: usize) {
+        self.stamps.resize(count.max(self.stamps.len()), 0);
+        self.counts.resize(count.max(self.counts.len()), 0);
+        self.stamp += 1;
+    }
+
+    /// Counts an index; whether it is new.
+    pub fn mark(&mut self, index: u32) -> bool {
+        let i = index as usize;
+        let new = self.stamps[i] != self.stamp;
+        self.stamps[i] = self.stamp;
+        self.counts[i] = if new { 1 } else { self.counts[i] + 1 };
+        new
+    }
+
+    /// Whether an index was counted.
+    pub fn has(&self, index: u32) -> bool {
+        self.stamps[index as usize] == self.stamp
+    }
+
+    /// How often.
+    pub fn count(&self, index: u32) -> u32 {
+        if self.has(index) { self.counts[index as usize] } else { 0 }
+    }
+
+    /// The vertices of some faces, each with the first face that has it, counting their faces.
+    fn vertices_of(&mut self, mesh: &Mesh, faces: &[u32]) -> Vec<(u32, u32)> {
+        self.clear(mesh.positions.len());
+        let mut vertices = Vec::with_capacity(faces.len());
+        for &face in faces {
+            for &vertex in &mesh.faces[face as usize] {
+                if self.mark(vertex) {
+                    vertices.push((vertex, face));
+                }
+            }
+        }
+        vertices
+    }
+}

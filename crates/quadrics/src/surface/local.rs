@@ -1,0 +1,328 @@
+//! Surfaces seen from a foot: what [`super::refine`] moves.
+//!
+//! A step is a shift along the normal `m` at the foot `f`, a rotation about it, and a change of
+//! curvature. Where a surface moves with velocity `v(x)`, the distance of `x` changes by `-n · v`,
+//! `n` being the normal at the foot of `x`; for a rotation `n · (ω × (x - f)) = ω · ((x - f) × n)`.
+
+use nalgebra::{SVector, UnitQuaternion};
+
+use super::refine::Local;
+use super::{Cone, Cylinder, Plane, Shape, Sphere, Surface, Torus};
+use crate::math::{Point, Unit, Vector, frame};
+
+/// Surfaces of larger radius, in the unit of the points, are given up: they are planes.
+const LARGEST_RADIUS: f64 = 1e4;
+
+fn rotation(step: Vector) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_scaled_axis(step)
+}
+
+fn radius_of(curvature: f64) -> Option<f64> {
+    let radius = 1.0 / curvature.abs();
+    (radius.is_finite() && radius < LARGEST_RADIUS && radius > 1.0 / LARGEST_RADIUS.powi(2))
+        .then_some(radius)
+}
+
+#[derive(Clone)]
+pub(super) struct LocalPlane {
+    foot: Point,
+    normal: Unit,
+    tangents: (Unit, Unit),
+}
+
+impl LocalPlane {
+    pub(super) fn new(plane: &Plane, near: Point) -> Self {
+        let foot = near - plane.normal.into_inner() * plane.distance(near);
+        Self { foot, normal: plane.normal, tangents: frame(&plane.normal) }
+    }
+
+    pub(super) fn surface(&self) -> Option<Surface> {
+        Some(Surface::Plane(Plane::through(self.foot, self.normal)))
+    }
+}
+
+impl Local<3> for LocalPlane {
+    fn residual(&self, point: Point) -> (f64, SVector<f64, 3>) {
+        let x = point - self.foot;
+        let torque = x.cross(&self.normal);
+        let row = [-1.0, -self.tangents.0.dot(&torque), -self.tangents.1.dot(&torque)];
+        (self.normal.dot(&x), row.into())
+    }
+
+    fn moved(&self, step: &SVector<f64, 3>) -> Option<Self> {
+        let foot = self.foot + self.normal.into_inner() * step[0];
+        let (u, v) = (self.tangents.0.into_inner(), self.tangents.1.into_inner());
+        let normal = rotation(u * step[1] + v * step[2]) * self.normal;
+        Some(Self { foot, normal, tangents: frame(&normal) })
+    }
+}
+
+/// Curvature is positive when the centre lies below the foot, against the normal.
+#[derive(Clone)]
+pub(super) struct LocalSphere {
+    foot: Point,
+    normal: Unit,
+    tangents: (Unit, Unit),
+    curvature: f64,
+    center: Point,
+    radius: f64,
+}
+
+impl LocalSphere {
+    pub(super) fn new(sphere: &Sphere, near: Point) -> Option<Self> {
+        let normal = sphere.normal(near)?;
+        let foot = sphere.center + normal.into_inner() * sphere.radius;
+        Self::at(foot, normal, 1.0 / sphere.radius)
+    }
+
+    fn at(foot: Point, normal: Unit, curvature: f64) -> Option<Self> {
+        // A sphere that turned inside out is the one on the other side.
+        let normal = if curvature < 0.0 { -normal } else { normal };
+        let radius = radius_of(curvature)?;
+        let center = foot - normal.into_inner() * radius;
+        let curvature = curvature.abs();
+        Some(Self { foot, normal, tangents: frame(&normal), curvature, center, radius })
+    }
+
+    pub(super) fn surface(&self) -> Option<Surface> {
+        Some(Surface::Sphere(Sphere { center: self.center, radius: self.radius }))
+    }
+}
+
+impl Local<4> for LocalSphere {
+    fn residual(&self, point: Point) -> (f64, SVector<f64, 4>) {
+        let y = point - self.center;
+        let length = y.norm();
+        let n = y / length.max(f64::MIN_POSITIVE);
+        let torque = (point - self.foot).cross(&n);
+        let row = [
+            -n.dot(&self.normal),
+            -self.tangents.0.dot(&torque),
+            -self.tangents.1.dot(&torque),
+            self.radius * self.radius * (1.0 - n.dot(&self.normal)),
+        ];
+        (length - self.radius, row.into())
+    }
+
+    fn moved(&self, step: &SVector<f64, 4>) -> Option<Self> {
+        let foot = self.foot + self.normal.into_inner() * step[0];
+        let (u, v) = (self.tangents.0.into_inner(), self.tangents.1.into_inner());
+        let normal = rotation(u * step[1] + v * step[2]) * self.normal;
+        Self::at(foot, normal, self.curvature + step[3])
+    }
+}
+
+#[derive(Clone)]
+pub(super) struct LocalCylinder {
+    foot: Point,
+    normal: Unit,
+    axis: Unit,
+    across: Vector,
+    curvature: f64,
+    center: Point,
+    radius: f64,
+}
+
+impl LocalCylinder {
+    pub(super) fn new(cylinder: &Cylinder, near: Point) -> Option<Self> {
+        let normal = cylinder.normal(near)?;
+        let foot = near - normal.into_inner() * cylinder.distance(near);
+        Self::at(foot, normal, cylinder.axis, 1.0 / cylinder.radius)
+    }
+
+    fn at(foot: Point, normal: Unit, axis: Unit, curvature: f64) -> Option<Self> {
+        let normal = if curvature < 0.0 { -normal } else { normal };
+        let radius = radius_of(curvature)?;
+        let center = foot - normal.into_inner() * radius;
+        let curvature = curvature.abs();
+        let across = axis.cross(&normal);
+        Some(Self { foot, normal, axis, across, curvature, center, radius })
+    }
+
+    pub(super) fn surface(&self) -> Option<Surface> {
+        let (point, axis, radius) = (self.center, self.axis, self.radius);
+        Some(Surface::Cylinder(Cylinder { point, axis, radius }))
+    }
+}
+
+impl Local<5> for LocalCylinder {
+    fn residual(&self, point: Point) -> (f64, SVector<f64, 5>) {
+        let y = point - self.center;
+        let radial = y - self.axis.into_inner() * self.axis.dot(&y);
+        let length = radial.norm();
+        let n = radial / length.max(f64::MIN_POSITIVE);
+        let torque = (point - self.foot).cross(&n);
+        let row = [
+            -n.dot(&self.normal),
+            -self.axis.dot(&torque),
+            -self.across.dot(&torque),
+            -self.normal.dot(&torque),
+            self.radius * self.radius * (1.0 - n.dot(&self.normal)),
+        ];
+        (length - self.radius, row.into())
+    }
+
+    fn moved(&self, step: &SVector<f64, 5>) -> Option<Self> {
+        let foot = self.foot + self.normal.into_inner() * step[0];
+        let axis = self.axis.into_inner();
+        let turn = axis * step[1] + self.across * step[2] + self.normal.into_inner() * step[3];
+        let turn = rotation(turn);
+        let normal = turn * self.normal;
+        // Rounding must not let the axis lean against the normal.
+        let axis = turn * axis;
+        let axis = Unit::try_new(axis - normal.into_inner() * normal.dot(&axis), 0.5)?;
+        Self::at(foot, normal, axis, self.curvature + step[4])
+    }
+}
+
+/// A cone by its axis, which passes the centre of curvature `f - m/κ`, and its normal at the foot.
+///
+/// With `s = m · a = -sin α`, `h` and `r` the height and radius of `x` seen from that centre, the
+/// signed distance is `r cos α + s h - 1/κ`.
+#[derive(Clone)]
+pub(super) struct LocalCone {
+    foot: Point,
+    normal: Unit,
+    axis: Unit,
+    curvature: f64,
+    center: Point,
+    sine: f64,
+    cosine: f64,
+}
+
+/// Cones closer to a cylinder or a plane than this (sine or cosine of the half angle) are given up.
+const CONE_LIMIT: f64 = 1e-4;
+
+impl LocalCone {
+    pub(super) fn new(cone: &Cone, near: Point) -> Option<Self> {
+        let normal = cone.normal(near)?;
+        let foot = near - normal.into_inner() * cone.distance(near);
+        let height = cone.axis.dot(&(foot - cone.apex));
+        // Behind the apex there is no generator to hold on to.
+        let radius = height * cone.half_angle.tan();
+        (radius > 0.0)
+            .then(|| Self::at(foot, normal, cone.axis, cone.half_angle.cos() / radius))
+            .flatten()
+    }
+
+    fn at(foot: Point, normal: Unit, axis: Unit, curvature: f64) -> Option<Self> {
+        let normal = if curvature < 0.0 { -normal } else { normal };
+        let curvature = curvature.abs();
+        radius_of(curvature)?;
+        // The axis points from the apex into the nappe: against the outward normal.
+        let axis = if axis.dot(&normal) > 0.0 { -axis } else { axis };
+        let sine = normal.dot(&axis);
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        let center = foot - normal.into_inner() / curvature;
+        (cosine > CONE_LIMIT).then_some(Self {
+            foot,
+            normal,
+            axis,
+            curvature,
+            center,
+            sine,
+            cosine,
+        })
+    }
+
+    pub(super) fn surface(&self) -> Option<Surface> {
+        if self.sine > -CONE_LIMIT {
+            return None;
+        }
+        let apex = self.center + self.axis.into_inner() / (self.curvature * self.sine);
+        let half_angle = (-self.sine).atan2(self.cosine);
+        Some(Surface::Cone(Cone { apex, axis: self.axis, half_angle }))
+    }
+}
+
+impl Local<6> for LocalCone {
+    fn residual(&self, point: Point) -> (f64, SVector<f64, 6>) {
+        let (axis, m) = (self.axis.into_inner(), self.normal.into_inner());
+        let y = point - self.center;
+        let h = axis.dot(&y);
+        let radial = y - axis * h;
+        let r = radial.norm().max(f64::MIN_POSITIVE);
+        let n = radial * (self.cosine / r) + axis * self.sine;
+        let distance = r * self.cosine + self.sine * h - 1.0 / self.curvature;
+        let torque = (point - self.foot).cross(&n);
+        let across = axis.cross(&m) / self.cosine;
+        let along = m.cross(&across);
+        // The axis turns about the centre, towards the normal: the half angle changes alone.
+        let q = (m - axis * self.sine) / self.cosine;
+        let opening =
+            -self.sine * r + self.cosine * h + (self.sine - self.cosine * h / r) * q.dot(&y);
+        let row = [
+            -n.dot(&m),
+            -along.dot(&torque),
+            -across.dot(&torque),
+            -m.dot(&torque),
+            (1.0 - n.dot(&m)) / (self.curvature * self.curvature),
+            opening,
+        ];
+        (distance, row.into())
+    }
+
+    fn moved(&self, step: &SVector<f64, 6>) -> Option<Self> {
+        let (axis, m) = (self.axis.into_inner(), self.normal.into_inner());
+        let across = axis.cross(&m) / self.cosine;
+        let along = m.cross(&across);
+        let foot = self.foot + m * step[0];
+        let turn = rotation(along * step[1] + across * step[2] + m * step[3]);
+        let q = (m - axis * self.sine) / self.cosine;
+        let axis = Unit::try_new(axis + q * step[5].clamp(-0.5, 0.5), 0.1)?;
+        Self::at(foot, turn * self.normal, turn * axis, self.curvature + step[4])
+    }
+}
+
+#[derive(Clone)]
+pub(super) struct LocalTorus {
+    torus: Torus,
+    tangents: (Unit, Unit),
+}
+
+impl LocalTorus {
+    pub(super) fn new(torus: &Torus) -> Self {
+        Self { tangents: frame(&torus.axis), torus: torus.clone() }
+    }
+
+    pub(super) fn surface(&self) -> Option<Surface> {
+        Some(Surface::Torus(self.torus.clone()))
+    }
+}
+
+impl Local<7> for LocalTorus {
+    fn residual(&self, point: Point) -> (f64, SVector<f64, 7>) {
+        let torus = &self.torus;
+        let axis = torus.axis.into_inner();
+        let y = point - torus.center;
+        let h = axis.dot(&y);
+        let radial = y - axis * h;
+        let r = radial.norm().max(f64::MIN_POSITIVE);
+        let outward = radial / r;
+        let tube = (r - torus.major_radius).hypot(h);
+        let n = (outward * (r - torus.major_radius) + axis * h) / tube.max(f64::MIN_POSITIVE);
+        let torque = y.cross(&n);
+        let row = [
+            -n.x,
+            -n.y,
+            -n.z,
+            -self.tangents.0.dot(&torque),
+            -self.tangents.1.dot(&torque),
+            -n.dot(&outward),
+            -1.0,
+        ];
+        (tube - torus.minor_radius, row.into())
+    }
+
+    fn moved(&self, step: &SVector<f64, 7>) -> Option<Self> {
+        let center = self.torus.center + step.fixed_rows::<3>(0);
+        let (u, v) = (self.tangents.0.into_inner(), self.tangents.1.into_inner());
+        let axis = rotation(u * step[3] + v * step[4]) * self.torus.axis;
+        let major_radius = self.torus.major_radius + step[5];
+        let minor_radius = self.torus.minor_radius + step[6];
+        radius_of(1.0 / minor_radius)?;
+        radius_of(1.0 / major_radius)?;
+        (major_radius > 0.0 && minor_radius > 0.0)
+            .then(|| Self::new(&Torus { center, axis, major_radius, minor_radius }))
+    }
+}

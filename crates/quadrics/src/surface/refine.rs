@@ -1,0 +1,235 @@
+//! Orthogonal-distance fits by Levenberg-Marquardt, with their covariance.
+//!
+//! Every surface is moved by rigid motions about a *foot* (a point of the surface near the data)
+//! and by its curvatures there, after Lukács, Martin and Marshall, "Faithful least-squares fitting"
+//! (ECCV 1998): as a cylinder flattens its curvature goes to zero and nothing becomes singular,
+//! where its radius would go to infinity.
+
+use nalgebra::{Const, DimMin, SMatrix, SVector};
+
+use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
+use super::{Quadric, Shape, Surface};
+use crate::math::{Point, Vector};
+
+/// A fitted surface and how well it fits.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// The surface.
+    pub surface: Surface,
+    /// Weighted sum of squared orthogonal distances.
+    pub cost: f64,
+}
+
+/// Surfaces as the solver sees them: residuals, derivatives by `N` local unknowns, and steps.
+pub(super) trait Local<const N: usize>: Clone {
+    /// Signed distance of a point, and its derivatives.
+    fn residual(&self, point: Point) -> (f64, SVector<f64, N>);
+    /// The surface after a step; `None` where it would stop being one.
+    fn moved(&self, step: &SVector<f64, N>) -> Option<Self>;
+}
+
+/// Most iterations of a fit; 8 are the rule.
+const ITERATIONS: usize = 30;
+/// A step that lowers the cost by less than this fraction is the last one.
+const PROGRESS: f64 = 1e-9;
+/// Marquardt's damping at the start, and what it is multiplied or divided by.
+const DAMPING: f64 = 1e-4;
+const DAMPING_FACTOR: f64 = 8.0;
+
+/// The normal equations of a model at some points: `JᵀJ`, `Jᵀr`, cost.
+fn normal_equations<const N: usize, M: Local<N>>(
+    model: &M,
+    points: &[Point],
+    weights: &[f64],
+) -> (SMatrix<f64, N, N>, SVector<f64, N>, f64) {
+    let mut matrix = SMatrix::<f64, N, N>::zeros();
+    let mut gradient = SVector::<f64, N>::zeros();
+    let mut cost = 0.0;
+    for (i, &point) in points.iter().enumerate() {
+        let weight = weights.get(i).copied().unwrap_or(1.0);
+        let (residual, row) = model.residual(point);
+        cost += weight * residual * residual;
+        for a in 0..N {
+            let scaled = weight * row[a];
+            gradient[a] += scaled * residual;
+            for b in 0..=a {
+                matrix[(a, b)] += scaled * row[b];
+            }
+        }
+    }
+    matrix.fill_upper_triangle_with_lower_triangle();
+    (matrix, gradient, cost)
+}
+
+fn cost_of<const N: usize, M: Local<N>>(model: &M, points: &[Point], weights: &[f64]) -> f64 {
+    let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
+    points.iter().enumerate().map(|(i, &p)| weight(i) * model.residual(p).0.powi(2)).sum()
+}
+
+/// Levenberg-Marquardt. Weights default to 1 where there are none.
+pub(super) fn minimise<const N: usize, M: Local<N>>(
+    mut model: M,
+    points: &[Point],
+    weights: &[f64],
+    iterations: usize,
+) -> (M, f64)
+where
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+{
+    let mut damping = DAMPING;
+    let (mut matrix, mut gradient, mut cost) = normal_equations(&model, points, weights);
+    for _ in 0..iterations {
+        let mut damped = matrix;
+        let floor = 1e-15 * matrix.diagonal().max();
+        for i in 0..N {
+            damped[(i, i)] += damping * matrix[(i, i)] + floor;
+        }
+        let candidate = damped.cholesky().and_then(|factor| model.moved(&-factor.solve(&gradient)));
+        let trial = candidate.map(|candidate| (cost_of(&candidate, points, weights), candidate));
+        match trial {
+            Some((lower, candidate)) if lower <= cost => {
+                let gained = cost - lower;
+                model = candidate;
+                damping = (damping / DAMPING_FACTOR).max(1e-12);
+                if gained <= PROGRESS * cost {
+                    cost = lower;
+                    break;
+                }
+                (matrix, gradient, cost) = normal_equations(&model, points, weights);
+            }
+            _ => {
+                damping *= DAMPING_FACTOR;
+                if damping > 1e6 {
+                    break;
+                }
+            }
+        }
+    }
+    (model, cost)
+}
+
+/// Moves a surface to the least sum of squared orthogonal distances.
+///
+/// `weights` may be empty for equal weights. `None` where the fit degenerates (a radius that
+/// vanishes or passes all bounds) or the surface is free-form.
+pub fn refine(surface: &Surface, points: &[Point], weights: &[f64]) -> Option<Fit> {
+    refine_within(surface, points, weights, ITERATIONS)
+}
+
+/// [`refine`] with at most so many iterations.
+pub fn refine_within(
+    surface: &Surface,
+    points: &[Point],
+    weights: &[f64],
+    iterations: usize,
+) -> Option<Fit> {
+    let foot = centroid(points)?;
+    let (surface, cost) = match surface {
+        Surface::Plane(s) => {
+            let (m, cost) = minimise(LocalPlane::new(s, foot), points, weights, iterations);
+            (m.surface()?, cost)
+        }
+        Surface::Sphere(s) => {
+            let (m, cost) = minimise(LocalSphere::new(s, foot)?, points, weights, iterations);
+            (m.surface()?, cost)
+        }
+        Surface::Cylinder(s) => {
+            let (m, cost) = minimise(LocalCylinder::new(s, foot)?, points, weights, iterations);
+            (m.surface()?, cost)
+        }
+        Surface::Cone(s) => {
+            let (m, cost) = minimise(LocalCone::new(s, foot)?, points, weights, iterations);
+            (m.surface()?, cost)
+        }
+        Surface::Torus(s) => {
+            let (m, cost) = minimise(LocalTorus::new(s), points, weights, iterations);
+            (m.surface()?, cost)
+        }
+        Surface::Quadric(s) => refine_quadric(s, points, weights, iterations)?,
+        Surface::FreeForm => return None,
+    };
+    cost.is_finite().then_some(Fit { surface, cost })
+}
+
+/// The mean of the points; `None` without any.
+pub fn centroid(points: &[Point]) -> Option<Point> {
+    let sum: Vector = points.iter().map(|p| p.coords).sum();
+    (!points.is_empty()).then(|| Point::from(sum / points.len() as f64))
+}
+
+/// A quadric near the data, whose distances are `f / |∇f|` (Taubin 1991): exact to first order, and
+/// on points near the surface the orthogonal distance.
+#[derive(Clone)]
+struct LocalQuadric {
+    centre: Point,
+    scale: f64,
+    coefficients: SVector<f64, 10>,
+}
+
+impl LocalQuadric {
+    fn monomials(&self, point: Point) -> (SVector<f64, 10>, Vector) {
+        let p = (point - self.centre) / self.scale;
+        let (x, y, z) = (p.x, p.y, p.z);
+        (SVector::from([1.0, x, y, z, x * x, x * y, x * z, y * y, y * z, z * z]), p)
+    }
+}
+
+impl Local<10> for LocalQuadric {
+    fn residual(&self, point: Point) -> (f64, SVector<f64, 10>) {
+        let (f, p) = self.monomials(point);
+        let c = &self.coefficients;
+        let gradient = Vector::new(
+            c[1] + 2.0 * c[4] * p.x + c[5] * p.y + c[6] * p.z,
+            c[2] + c[5] * p.x + 2.0 * c[7] * p.y + c[8] * p.z,
+            c[3] + c[6] * p.x + c[8] * p.y + 2.0 * c[9] * p.z,
+        );
+        let length = gradient.norm().max(1e-12);
+        let value = c.dot(&f);
+        let distance = value / length;
+        let n = gradient / length;
+        // d/dc of f/|∇f|: the gradient's length changes with the coefficients too.
+        let (x, y, z) = (p.x, p.y, p.z);
+        let turn = SVector::from([
+            0.0,
+            n.x,
+            n.y,
+            n.z,
+            2.0 * x * n.x,
+            y * n.x + x * n.y,
+            z * n.x + x * n.z,
+            2.0 * y * n.y,
+            z * n.y + y * n.z,
+            2.0 * z * n.z,
+        ]);
+        ((distance * self.scale), (f - turn * distance) * (self.scale / length))
+    }
+
+    fn moved(&self, step: &SVector<f64, 10>) -> Option<Self> {
+        // The scale of the coefficients is free: keep it at one.
+        let coefficients = (self.coefficients + step).try_normalize(1e-12)?;
+        Some(Self { coefficients, ..self.clone() })
+    }
+}
+
+fn refine_quadric(
+    quadric: &Quadric,
+    points: &[Point],
+    weights: &[f64],
+    iterations: usize,
+) -> Option<(Surface, f64)> {
+    use nalgebra::{Similarity3, UnitQuaternion};
+    let centre = centroid(points)?;
+    let spread = points.iter().map(|p| (p - centre).norm_squared()).sum::<f64>();
+    let scale = (spread / points.len() as f64).sqrt().max(1e-12);
+    // World = centre + scale * local.
+    let there = Similarity3::from_parts(centre.coords.into(), UnitQuaternion::identity(), scale);
+    let local = quadric.transformed(&there.inverse());
+    let coefficients = SVector::from(local.coefficients).try_normalize(1e-300)?;
+    let start = LocalQuadric { centre, scale, coefficients };
+    let (model, _) = minimise(start, points, weights, iterations);
+    let local = Quadric { coefficients: model.coefficients.into() };
+    let world = local.transformed(&there);
+    let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
+    let cost = points.iter().enumerate().map(|(i, &p)| weight(i) * world.distance(p).powi(2)).sum();
+    Some((Surface::Quadric(world), cost))
+}

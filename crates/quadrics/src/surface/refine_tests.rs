@@ -1,0 +1,118 @@
+//! A surface is recovered from points drawn from it.
+
+use rand::RngExt;
+
+use super::start::{self, Samples};
+use super::*;
+use crate::context::Context;
+use crate::math::Vector;
+
+/// Points of a patch of each surface, exactly on it, with normals.
+fn patch(surface: &Surface) -> (Vec<Point>, Vec<Vector>) {
+    let mut rng = Context::new(7).rng;
+    let mut points = Vec::new();
+    let mut normals = Vec::new();
+    while points.len() < 120 {
+        let mut draw = || rng.random_range(-0.25..0.25);
+        let near = Point::new(1.0 + draw(), 0.5 + draw(), 0.3 + draw());
+        if let (Some(foot), Some(normal)) = (surface.project(near), surface.normal(near))
+            && (foot - near).norm() < 0.3
+        {
+            points.push(foot);
+            normals.push(normal.into_inner());
+        }
+    }
+    (points, normals)
+}
+
+fn tilted() -> Unit {
+    Unit::new_normalize(Vector::new(0.3, -0.4, 1.0))
+}
+
+#[test]
+fn exact_points_give_the_exact_surface() {
+    let axis = tilted();
+    let truth = [
+        Surface::Plane(Plane::through(Point::new(1.0, 0.5, 0.3), axis)),
+        Surface::Sphere(Sphere { center: Point::new(0.5, 0.5, 0.3), radius: 0.5 }),
+        Surface::Cylinder(Cylinder { point: Point::new(0.5, 0.5, 0.3), axis, radius: 0.5 }),
+        Surface::Cone(Cone { apex: Point::new(0.8, 0.4, -0.6), axis, half_angle: 0.4 }),
+        Surface::Torus(Torus {
+            center: Point::new(0.5, 0.2, 0.2),
+            axis,
+            major_radius: 0.5,
+            minor_radius: 0.15,
+        }),
+    ];
+    for truth in truth {
+        let (points, normals) = patch(&truth);
+        let samples = Samples { points: &points, normals: &normals };
+        let starts: Vec<Surface> = match &truth {
+            Surface::Plane(_) => start::plane(samples).into_iter().collect(),
+            Surface::Sphere(_) => start::sphere(samples).into_iter().collect(),
+            Surface::Cylinder(_) => {
+                start::axes(samples).iter().filter_map(|a| start::cylinder(samples, a)).collect()
+            }
+            Surface::Cone(_) => {
+                start::axes(samples).iter().filter_map(|a| start::cone(samples, a)).collect()
+            }
+            _ => start::axes(samples).iter().filter_map(|a| start::torus(samples, a)).collect(),
+        };
+        let best = starts
+            .iter()
+            .filter_map(|s| refine(s, &points, &[]))
+            .min_by(|a, b| a.cost.total_cmp(&b.cost))
+            .unwrap_or_else(|| panic!("no fit of {truth:?} from {starts:?}"));
+        assert!(best.cost < 1e-18, "{truth:?}: {best:?}");
+        for point in &points {
+            let foot = *point + normals[0] * 0.01;
+            let (one, other) = (best.surface.distance(foot), truth.distance(foot));
+            assert!((one.unwrap().abs() - other.unwrap().abs()).abs() < 1e-7, "{truth:?}");
+        }
+    }
+}
+
+#[test]
+fn the_derivatives_agree_with_differences() {
+    use super::local::*;
+    use super::refine::Local;
+    fn check<const N: usize, M: Local<N>>(model: &M, points: &[Point]) {
+        for &point in points {
+            let (_, row) = model.residual(point);
+            for i in 0..N {
+                let mut step = nalgebra::SVector::<f64, N>::zeros();
+                step[i] = 1e-6;
+                let ahead = model.moved(&step).unwrap().residual(point).0;
+                let behind = model.moved(&-step).unwrap().residual(point).0;
+                let rate = (ahead - behind) / 2e-6;
+                assert!(
+                    (rate - row[i]).abs() < 1e-4 * (1.0 + rate.abs()),
+                    "{i}: {rate} {}",
+                    row[i]
+                );
+            }
+        }
+    }
+    let axis = tilted();
+    let near = Point::new(1.0, 0.5, 0.3);
+    let cylinder = Cylinder { point: Point::new(0.5, 0.5, 0.3), axis, radius: 0.5 };
+    let cone = Cone { apex: Point::new(0.8, 0.4, -0.6), axis, half_angle: 0.4 };
+    let sphere = Sphere { center: Point::new(0.5, 0.5, 0.3), radius: 0.5 };
+    let center = Point::new(0.5, 0.2, 0.2);
+    let torus = Torus { center, axis, major_radius: 0.5, minor_radius: 0.15 };
+    let points = |s: &Surface| patch(s).0;
+    check(&LocalCylinder::new(&cylinder, near).unwrap(), &points(&Surface::Cylinder(cylinder)));
+    check(&LocalCone::new(&cone, near).unwrap(), &points(&Surface::Cone(cone)));
+    check(&LocalSphere::new(&sphere, near).unwrap(), &points(&Surface::Sphere(sphere)));
+    check(&LocalTorus::new(&torus), &points(&Surface::Torus(torus)));
+}
+
+#[test]
+fn an_ellipsoid_is_recovered_as_a_quadric() {
+    let form = nalgebra::Matrix3::from_diagonal(&Vector::new(4.0, 9.0, 2.0));
+    let truth = Surface::Quadric(Quadric::about(Point::new(0.6, 0.5, 0.3), -1.0, form));
+    let (points, normals) = patch(&truth);
+    let samples = Samples { points: &points, normals: &normals };
+    let fit = refine(&start::quadric(samples).unwrap(), &points, &[]).unwrap();
+    assert!(fit.cost < 1e-16, "{fit:?}");
+}

@@ -1,0 +1,192 @@
+//! The simplest surface that the noise explains.
+//!
+//! A Bayesian information criterion with the mesh's one sigma and the number of *independent*
+//! samples: `n mean(min(d²/σ², cap)) + 2 cost(type) ln n`. Costs are not parameter counts: bands
+//! around an axis fit spheres as well as cones, so a sphere must cost more than its four parameters.
+
+use super::start::{self, Samples};
+use super::{Shape, Surface, refine_within};
+use crate::math::{Point, Vector};
+
+/// What is known of the noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evidence {
+    /// Standard deviation of a vertex across the surface.
+    pub sigma: f64,
+    /// Independent samples over vertices: 1 for independent noise, a few per cent on scans.
+    pub independent: f64,
+}
+
+/// A surface chosen for some points.
+#[derive(Debug, Clone)]
+pub struct Choice {
+    /// The surface.
+    pub surface: Surface,
+    /// Mean of `min(d²/σ², CAP)` over the points: 1 where only noise is left.
+    pub misfit: f64,
+    /// The criterion; less is better.
+    pub criterion: f64,
+}
+
+/// Squared distances count up to this many squared sigmas, so that a few faces of the neighbour do
+/// not decide.
+pub const CAP: f64 = 9.0;
+/// Iterations of a trial fit, and of the one that decides.
+const TRIAL_ITERATIONS: usize = 4;
+const FINAL_ITERATIONS: usize = 25;
+/// Surfaces with a radius above this many sizes are planes (points are in the unit cube).
+const LARGEST_RADIUS: f64 = 5.0;
+/// Half angles outside this range, in degrees, are cylinders or planes.
+const HALF_ANGLES: (f64, f64) = (0.3, 88.0);
+/// A surface that the points straddle has normals of both signs; the mean sign must exceed this.
+const ONE_SIDED: f64 = 0.6;
+/// Part of the noise that is expected to remain whatever is fitted.
+const LEAST_MISFIT: f64 = 0.6;
+
+/// What a type costs, in units of `2 ln n` (measured on parts with known truth).
+pub fn cost(surface: &Surface) -> f64 {
+    match surface {
+        Surface::Plane(_) => 3.0,
+        Surface::Cylinder(_) => 5.0,
+        Surface::Cone(_) => 6.0,
+        Surface::Sphere(_) => 6.5,
+        Surface::Torus(_) => 8.0,
+        Surface::Quadric(_) => 9.0,
+        Surface::FreeForm => 0.0,
+    }
+}
+
+/// Mean capped squared distance in squared sigmas.
+pub fn misfit(surface: &Surface, points: &[Point], sigma: f64) -> f64 {
+    fn mean<S: Shape>(shape: &S, points: &[Point], sigma: f64) -> f64 {
+        let scale = 1.0 / (sigma * sigma);
+        let sum: f64 = points.iter().map(|&p| (shape.distance(p).powi(2) * scale).min(CAP)).sum();
+        sum / points.len().max(1) as f64
+    }
+    match surface {
+        Surface::Plane(s) => mean(s, points, sigma),
+        Surface::Sphere(s) => mean(s, points, sigma),
+        Surface::Cylinder(s) => mean(s, points, sigma),
+        Surface::Cone(s) => mean(s, points, sigma),
+        Surface::Torus(s) => mean(s, points, sigma),
+        Surface::Quadric(s) => mean(s, points, sigma),
+        Surface::FreeForm => CAP,
+    }
+}
+
+/// The criterion of a surface for `vertices` vertices of which `samples` are looked at.
+pub fn judge(surface: Surface, samples: Samples, vertices: usize, evidence: Evidence) -> Choice {
+    let misfit = misfit(&surface, samples.points, evidence.sigma);
+    let count = (vertices as f64 * evidence.independent).max(2.0);
+    let criterion = count * misfit + 2.0 * cost(&surface) * count.ln();
+    Choice { surface, misfit, criterion }
+}
+
+/// All types that fit, best criterion first.
+///
+/// Types are tried from the simplest; one is skipped when it could not win even if it left nothing
+/// but noise.
+pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choice> {
+    let mut choices: Vec<Choice> = Vec::new();
+    let consider = |choices: &mut Vec<Choice>, surface: Surface| {
+        if plausible(&surface, samples) {
+            let choice = judge(surface, samples, vertices, evidence);
+            insert(choices, choice);
+        }
+        choices.first().map_or(f64::INFINITY, |best| best.criterion)
+    };
+    let count = (vertices as f64 * evidence.independent).max(2.0);
+    let bound = |cost: f64| count * LEAST_MISFIT + 2.0 * cost * count.ln();
+    let mut best = f64::INFINITY;
+    if let Some(plane) = start::plane(samples) {
+        best = consider(&mut choices, plane);
+    }
+    if samples.points.len() < 6 || best <= bound(5.0) {
+        return choices;
+    }
+    let axes = start::axes(samples);
+    if let Some(cylinder) =
+        best_of(axes.iter().filter_map(|a| start::cylinder(samples, a)), samples)
+    {
+        best = consider(&mut choices, cylinder);
+    }
+    if best > bound(6.0)
+        && let Some(cone) = best_of(axes.iter().filter_map(|a| start::cone(samples, a)), samples)
+    {
+        best = consider(&mut choices, cone);
+    }
+    if best > bound(6.5)
+        && let Some(sphere) = best_of(start::sphere(samples).into_iter(), samples)
+    {
+        best = consider(&mut choices, sphere);
+    }
+    if best > bound(8.0)
+        && samples.points.len() >= 10
+        && let Some(torus) = best_of(axes.iter().filter_map(|a| start::torus(samples, a)), samples)
+    {
+        best = consider(&mut choices, torus);
+    }
+    let simple = choices.first().map_or(CAP, |best| best.misfit);
+    if best > bound(9.0)
+        && simple > QUADRIC_FROM
+        && samples.points.len() >= 14
+        && let Some(quadric) = start::quadric(samples)
+        && let Some(fit) = refine_within(&quadric, samples.points, &[], FINAL_ITERATIONS)
+        && !singular(&fit.surface, samples.points)
+    {
+        let choice = judge(fit.surface, samples, vertices, evidence);
+        if choice.misfit < QUADRIC_GAIN * simple {
+            insert(&mut choices, choice);
+        }
+    }
+    choices
+}
+
+/// A general quadric is asked only where simpler surfaces leave more than noise, and must gain on
+/// the best of them: it fits two planes, and any patch that bends twice.
+const QUADRIC_FROM: f64 = 1.2;
+const QUADRIC_GAIN: f64 = 0.8;
+
+fn insert(choices: &mut Vec<Choice>, choice: Choice) {
+    let at = choices.partition_point(|known| known.criterion <= choice.criterion);
+    choices.insert(at, choice);
+}
+
+/// Whether the gradient vanishes near the points, as it does where two planes meet.
+fn singular(surface: &Surface, points: &[Point]) -> bool {
+    let Surface::Quadric(quadric) = surface else { return false };
+    let mut slopes: Vec<f64> = points.iter().map(|&p| quadric.gradient(p).norm()).collect();
+    slopes.sort_unstable_by(f64::total_cmp);
+    slopes[slopes.len() / 20] < slopes[slopes.len() / 2] / 4.0
+}
+
+/// The best orthogonal-distance fit from several starts: a few iterations each, the winner to the end.
+fn best_of(starts: impl Iterator<Item = Surface>, samples: Samples) -> Option<Surface> {
+    let trials = starts.filter_map(|s| refine_within(&s, samples.points, &[], TRIAL_ITERATIONS));
+    let best = trials.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    Some(refine_within(&best.surface, samples.points, &[], FINAL_ITERATIONS)?.surface)
+}
+
+/// Whether a surface is of sensible size and seen from one side.
+fn plausible(surface: &Surface, samples: Samples) -> bool {
+    let sensible = match surface {
+        Surface::Sphere(s) => s.radius < LARGEST_RADIUS,
+        Surface::Cylinder(s) => s.radius < LARGEST_RADIUS,
+        Surface::Cone(s) => {
+            (HALF_ANGLES.0..HALF_ANGLES.1).contains(&s.half_angle.to_degrees())
+                && samples.points.iter().filter(|p| s.axis.dot(&(*p - s.apex)) < 0.0).count() * 20
+                    < samples.points.len()
+        }
+        Surface::Torus(s) => {
+            s.major_radius < LARGEST_RADIUS && s.minor_radius < s.major_radius * 1.02
+        }
+        _ => true,
+    };
+    sensible && one_sided(surface, samples)
+}
+
+fn one_sided(surface: &Surface, samples: Samples) -> bool {
+    let sign = |(p, n): (&Point, &Vector)| surface.normal(*p).map_or(0.0, |m| m.dot(n).signum());
+    let sum: f64 = samples.points.iter().zip(samples.normals).map(sign).sum();
+    sum.abs() > ONE_SIDED * samples.points.len() as f64
+}
