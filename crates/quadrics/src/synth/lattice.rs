@@ -95,14 +95,15 @@ impl Lattice {
             let (low, high) = if from[1] < to[1] { (from, to) } else { (to, from) };
             // Half open, so that a row through a vertex is crossed once; floor, and not ceil, lest
             // rounding skips that row.
-            for row in self.row_at(low[1]).floor().max(0.0) as usize.. {
+            let first = self.row_at(low[1]).floor().max(0.0) as usize;
+            for (row, cuts) in crossings.iter_mut().enumerate().skip(first) {
                 let y = self.origin[1] + row as f64 * self.step[1];
-                if y >= high[1] || row >= self.rows {
+                if y >= high[1] {
                     break;
                 }
                 if y >= low[1] {
                     let part = (y - low[1]) / (high[1] - low[1]);
-                    crossings[row].push(low[0] + part * (high[0] - low[0]));
+                    cuts.push(low[0] + part * (high[0] - low[0]));
                 }
             }
         }

@@ -14,6 +14,7 @@ mod build;
 mod catalogue;
 mod crumbs;
 mod curve;
+mod discs;
 mod field;
 mod lattice;
 mod noise;

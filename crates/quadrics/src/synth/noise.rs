@@ -111,8 +111,8 @@ mod tests {
 
     fn moves(mesh: &Mesh, noise: &Noise, seed: u64) -> Vec<f64> {
         let noisy = add_noise(&mut Context::new(seed), mesh, noise).unwrap();
-        let pairs = noisy.positions.iter().zip(&mesh.positions);
-        pairs.map(|(p, q)| (p - q).norm() / mesh.size()).collect()
+        let (pairs, size) = (noisy.positions.iter().zip(&mesh.positions), mesh.size());
+        pairs.map(|(p, q)| (p - q).norm() / size).collect()
     }
 
     #[test]

@@ -21,6 +21,12 @@ const ROUNDING: f64 = 0.5;
 /// How ragged the rim of a hole is: standard deviation of its radius, relative.
 const RAGGED: f64 = 0.25;
 
+/// Correlation lengths below this fraction of the size are none, and 1 / 0 is no wave.
+const SHORTEST: f64 = 1e-9;
+
+/// A scan is made from a mesh up to forty times finer, whose half-edges 32 bits must number.
+const MOST_FACES: usize = 30_000_000;
+
 /// What a scanner does to a part. Lengths are fractions of the longest side of the part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scanner {
@@ -70,6 +76,10 @@ impl Scanner {
                 return Err(Error::Option(text));
             }
         }
+        if self.faces > MOST_FACES {
+            let text = format!("{} faces are too many: {MOST_FACES} is the most", self.faces);
+            return Err(Error::Option(text));
+        }
         if self.faces == 0 || self.holes.0 > self.holes.1 || !(low <= high && high.is_finite()) {
             let text = "a scanner needs a face, and its ranges the lesser number first";
             return Err(Error::Option(text.into()));
@@ -85,12 +95,16 @@ impl Scanner {
 /// which the vertices miss by the errors of the scanner.
 ///
 /// # Errors
-/// [`Error::Empty`] if the part has no face, [`Error::Option`] if the scanner makes no sense,
-/// [`Error::Cancelled`] if the listener asks to stop.
+/// [`Error::Empty`] if the part has no face, [`Error::Option`] if the scanner makes no sense or a
+/// face of the part no surface, [`Error::Cancelled`] if the listener asks to stop.
 pub fn scan(context: &mut Context, part: &Part, scanner: &Scanner) -> Result<Part> {
     scanner.check()?;
     if part.mesh.faces.is_empty() {
         return Err(Error::Empty);
+    }
+    let known = |&label: &u32| (label as usize) < part.surfaces.len();
+    if part.labels.len() != part.mesh.faces.len() || !part.labels.iter().all(known) {
+        return Err(Error::Option("a part needs a label for every face and its surface".into()));
     }
     let size = part.mesh.size();
     let mut scan = resample(context, part, scanner.faces, scanner.density)?;
@@ -147,8 +161,7 @@ fn round_edges(scan: &mut Part) {
 }
 
 fn displace(context: &mut Context, mesh: &mut Mesh, scanner: &Scanner, size: f64) {
-    // Waves must not be shorter than nothing: without a wavelength every vertex is on its own.
-    let field = Field::new(context, (scanner.wavelength * size).max(f64::MIN_POSITIVE));
+    let field = Field::new(context, scanner.wavelength.max(SHORTEST) * size);
     let normals = vertex_normals(mesh);
     for (position, normal) in mesh.positions.iter_mut().zip(normals) {
         let error = scanner.waviness * field.at(*position) + scanner.jitter * gaussian(context);
@@ -166,7 +179,7 @@ fn missing(context: &mut Context, mesh: &Mesh, scanner: &Scanner, size: f64) -> 
         let seed = by_area(context, &geometry.areas);
         let (low, high) = scanner.hole_radius;
         let radius = size * context.rng.random_range(low..=high);
-        let ragged = Field::new(context, (radius / 2.0).max(f64::MIN_POSITIVE));
+        let ragged = Field::new(context, (radius / 2.0).max(SHORTEST * size));
         let center = geometry.barycentres[seed];
         let inside = |face: usize| {
             let place = geometry.barycentres[face];

@@ -105,7 +105,7 @@ impl Sweep<'_> {
             .collect();
         for (i, curve) in self.contour.iter().enumerate() {
             let next = &columns[(i + 1) % columns.len()];
-            let sides = [&below[i], next, &above[i], &columns[i]];
+            let sides: [&[u32]; 4] = [&below[i], next, &above[i], &columns[i]];
             let tops: Vec<f64> = above[i].iter().map(|&v| height(part, v)).collect();
             let through = holes.iter().filter(|(piece, _)| *piece == i).map(|(_, hole)| hole);
             self.side(part, curve, profile, sides, &tops, through);
@@ -138,34 +138,14 @@ impl Sweep<'_> {
         part: &mut Builder,
         curve: &Curve,
         profile: &Curve,
-        [below, right, above, left]: [&Vec<u32>; 4],
+        sides: [&[u32]; 4],
         tops: &[f64],
         holes: impl Iterator<Item = &'h Loop>,
     ) {
         let region = part.region(self.surface(curve, profile));
         // Half way up, where the contour is neither longest nor shortest.
         let length = self.length_at(curve, profile.at(0.5)[0]);
-        let wide = |i: usize| i as f64 / (below.len() - 1) as f64 * length;
-        let tall = |i: usize, column: &[u32], top: f64| i as f64 / (column.len() - 1) as f64 * top;
-        let last = below.len() - 1;
-        let mut vertices = Vec::new();
-        let mut outline: Vec<Point2> = Vec::new();
-        for i in 0..last {
-            vertices.push(below[i]);
-            outline.push([wide(i), 0.0]);
-        }
-        for i in 0..right.len() - 1 {
-            vertices.push(right[i]);
-            outline.push([length, tall(i, right, tops[last])]);
-        }
-        for i in (1..=last).rev() {
-            vertices.push(above[i]);
-            outline.push([wide(i), tops[i]]);
-        }
-        for i in (1..left.len()).rev() {
-            vertices.push(left[i]);
-            outline.push([0.0, tall(i, left, tops[0])]);
-        }
+        let (mut vertices, outline) = outline(sides, length, tops);
         let mut outlines = vec![outline];
         for hole in holes {
             vertices.extend(hole);
@@ -260,6 +240,24 @@ impl Sweep<'_> {
             _ => unreachable!("profiles of sweeps are lines and arcs"),
         }
     }
+}
+
+/// The vertices around a side and their parameters, from the foot counter-clockwise.
+fn outline(
+    [below, right, above, left]: [&[u32]; 4],
+    length: f64,
+    tops: &[f64],
+) -> (Vec<u32>, Vec<Point2>) {
+    let step = |i: usize, chain: &[u32]| i as f64 / (chain.len() - 1) as f64;
+    let (first, last) = (tops[0], tops[tops.len() - 1]);
+    let foot = below.iter().enumerate().map(|(i, &v)| (v, [step(i, below) * length, 0.0]));
+    let rise = right.iter().enumerate().map(|(i, &v)| (v, [length, step(i, right) * last]));
+    let head = above.iter().enumerate().map(|(i, &v)| (v, [step(i, above) * length, tops[i]]));
+    let fall = left.iter().enumerate().map(|(i, &v)| (v, [0.0, step(i, left) * first]));
+    // Each ends with the vertex at which the next begins.
+    let (foot, rise) = (foot.take(below.len() - 1), rise.take(right.len() - 1));
+    let (head, fall) = (head.rev().take(above.len() - 1), fall.rev().take(left.len() - 1));
+    foot.chain(rise).chain(head).chain(fall).unzip()
 }
 
 fn divisions(part: &Builder, curve: &Curve) -> usize {

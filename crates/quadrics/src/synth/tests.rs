@@ -1,6 +1,7 @@
 //! What holds for every part.
 
 use super::*;
+use crate::math::{Similarity, Vector};
 use crate::mesh::{Adjacency, Geometry, NONE};
 use crate::partition::{components, region_count};
 
@@ -20,8 +21,11 @@ fn volume(part: &Part) -> f64 {
 }
 
 #[test]
-fn every_vertex_of_a_region_lies_on_its_surface() {
-    for (name, part) in parts() {
+fn every_vertex_of_a_region_lies_on_its_surface_also_when_moved() {
+    let by = Similarity::new(Vector::new(30.0, -9.0, 50.0), Vector::new(0.3, -1.0, 0.7), 0.1);
+    for (name, part) in
+        parts().flat_map(|(name, part)| [(name, part.transformed(&by)), (name, part)])
+    {
         let size = part.mesh.size();
         for (face, &label) in part.labels.iter().enumerate() {
             for point in part.mesh.corners(face) {
@@ -134,6 +138,11 @@ fn triangles_are_those_of_a_decent_mesher() {
 fn what_cannot_be_made_is_refused_with_the_way_out() {
     let text = part("flange", 1000).unwrap_err().to_string();
     assert!(text.contains("flange") && text.contains("demo"), "{text}");
-    let text = part("plate:100", 100).unwrap_err().to_string();
-    assert!(text.contains("too few"), "{text}");
+    for (name, faces) in [("plate:100", 100), ("plate:999999999999", 10_000), ("demo", 0)] {
+        let text = part(name, faces).unwrap_err().to_string();
+        assert!(text.contains("too few"), "{text}");
+    }
+    assert!(part("shaft", usize::MAX).unwrap_err().to_string().contains("too many"));
+    assert!(part("plate:-1", 10_000).is_err());
+    assert_eq!(part("plate:0", 1_000).unwrap().surfaces.len(), 6);
 }

@@ -61,8 +61,9 @@ fn the_errors_have_the_standard_deviations_asked_for() {
 fn the_same_seed_gives_the_same_scan() {
     let part = part("open", 5_000).unwrap();
     let make = |seed| scan(&mut Context::new(seed), &part, &small()).unwrap();
-    assert_eq!(make(4), make(4));
-    assert_ne!(make(4), make(5));
+    let one = make(4);
+    assert_eq!(one, make(4));
+    assert_ne!(one, make(5));
 }
 
 #[test]
@@ -75,5 +76,15 @@ fn a_cancelled_scan_stops_and_a_senseless_one_does_not_begin() {
     let nan = Scanner { jitter: f64::NAN, ..small() };
     assert!(scan(&mut context, &part, &nan).unwrap_err().to_string().contains("jitter"));
     assert!(scan(&mut context, &part, &Scanner { faces: 0, ..small() }).is_err());
+    let torn = Part { surfaces: Vec::new(), ..part.clone() };
+    assert!(scan(&mut context, &torn, &small()).unwrap_err().to_string().contains("surface"));
     assert!(scan(&mut context, &part, &Scanner { holes: (3, 2), ..small() }).is_err());
+}
+
+#[test]
+fn a_scanner_whose_lengths_are_zero_makes_finite_meshes() {
+    let part = part("shaft", 2_000).unwrap();
+    let zero = Scanner { wavelength: 0.0, hole_radius: (0.0, 0.0), faces: 2_000, ..small() };
+    let scan = scan(&mut Context::new(6), &part, &zero).unwrap();
+    assert!(scan.mesh.positions.iter().flat_map(|p| p.iter()).all(|c| c.is_finite()));
 }
