@@ -145,8 +145,9 @@ class Torus(AnalyticSurface):
 class Quadric(AnalyticSurface):
     """A general quadric: c . [1, x, y, z, x^2, xy, xz, y^2, yz, z^2] = 0.
 
-    `type` names its class (`ellipsoid`, `elliptic_cylinder`, ...; `quadric` where it has no name
-    of its own); `center`, `axes` and `semi_axes` are None where the class has none.
+    `type` names its class (`ellipsoid`, `elliptic_cylinder`, ...). Where the class is not a type of
+    its own, `type` is `quadric` and `kind` names it: `sphere`, say, for a free fit to a ball, or
+    `other`. `center`, `axes` and `semi_axes` are None where the class has none.
     """
 
     coefficients: tuple[float, ...]
@@ -154,12 +155,14 @@ class Quadric(AnalyticSurface):
     center: Vector | None = None
     axes: tuple[Vector, ...] | None = None
     semi_axes: tuple[float, ...] | None = None
+    kind: str = "other"
 
     @property
     def parameters(self) -> dict[str, Any]:
         """Parameters by their names in the result files; vectors are lists."""
-        named = {"class": "other"} if self.type == "quadric" else {}
-        return {**named, **super().parameters}
+        values = super().parameters
+        kind = values.pop("kind")  # `class` is a word of Python.
+        return {"class": kind, **values} if self.type == "quadric" else values
 
     def _flat(self) -> tuple[str, list[float]]:
         return "quadric", [float(number) for number in self.coefficients]
@@ -186,8 +189,7 @@ def surface_from(parameters: Mapping[str, Any]) -> Surface:
     if kind in _CLASSES:
         surface: Surface = _CLASSES[kind](**values)
         return surface
-    values.pop("class", None)
-    return Quadric(type=kind, **values)
+    return Quadric(type=kind, kind=values.pop("class", "other"), **values)
 
 
 def _names(surface: Any) -> list[str]:

@@ -24,10 +24,11 @@ pub fn segment<'py>(
     let mesh = mesh::mesh_from(py, &positions, &faces)?;
     let options = read_options(options)?;
     let labels = initial_labels.map(|labels| labels.as_array().to_vec());
+    let size = mesh.size();
     let result = context::run(py, options.seed, progress, move |context| {
         pipeline::segment(context, &mesh, &options, labels.as_deref())
     })?;
-    describe(py, result)
+    describe(py, result, size)
 }
 
 /// Reads and writes every field by its name; a field that is forgotten here does not compile.
@@ -116,9 +117,9 @@ choice!(Preset { Default = "default", Paper = "paper" });
 choice!(Seeds { Region = "region", Triangle = "triangle" });
 
 /// A segmentation as Python's `result.py` takes it.
-fn describe(py: Python<'_>, result: Segmentation) -> PyResult<Bound<'_, PyDict>> {
+fn describe(py: Python<'_>, result: Segmentation, size: f64) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
-    let regions: PyResult<Vec<_>> = result.regions.iter().map(|r| region(py, r)).collect();
+    let regions: PyResult<Vec<_>> = result.regions.iter().map(|r| region(py, r, size)).collect();
     let relations: PyResult<Vec<_>> = result.relations.iter().map(|r| relation(py, r)).collect();
     dict.set_item("labels", result.labels.into_pyarray(py))?;
     dict.set_item("regions", PyList::new(py, regions?)?)?;
@@ -130,14 +131,14 @@ fn describe(py: Python<'_>, result: Segmentation) -> PyResult<Bound<'_, PyDict>>
     Ok(dict)
 }
 
-fn region<'py>(py: Python<'py>, region: &Region) -> PyResult<Bound<'py, PyDict>> {
+fn region<'py>(py: Python<'py>, region: &Region, size: f64) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     let side = match region.side {
         Side::Outside => "outside",
         Side::Inside => "inside",
     };
     dict.set_item("id", region.id)?;
-    dict.set_item("surface", surface::describe(py, &region.surface)?)?;
+    dict.set_item("surface", surface::describe(py, &region.surface, size)?)?;
     dict.set_item("side", side)?;
     dict.set_item("confidence", region.confidence)?;
     dict.set_item("runner_up", region.runner_up)?;

@@ -9,10 +9,15 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use quadrics::Surface;
 use quadrics::math::{Point, Unit, Vector};
+use quadrics::surface::kind::{Class, kind};
 use quadrics::surface::{Cone, Cylinder, Plane, Quadric, Sphere, Torus};
 
-/// `type` and the parameters of a surface.
-pub fn describe<'py>(py: Python<'py>, surface: &Surface) -> PyResult<Bound<'py, PyDict>> {
+/// `type` and the parameters of a surface in a part whose longest side is `size`.
+pub fn describe<'py>(
+    py: Python<'py>,
+    surface: &Surface,
+    size: f64,
+) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("type", surface.type_name())?;
     let vector = |v: &Vector| [v.x, v.y, v.z];
@@ -42,10 +47,26 @@ pub fn describe<'py>(py: Python<'py>, surface: &Surface) -> PyResult<Bound<'py, 
             dict.set_item("major_radius", s.major_radius)?;
             dict.set_item("minor_radius", s.minor_radius)?;
         }
-        Surface::Quadric(s) => dict.set_item("coefficients", s.coefficients)?,
+        Surface::Quadric(s) => describe_quadric(&dict, s, size)?,
         Surface::FreeForm => {}
     }
     Ok(dict)
+}
+
+/// The class by its name, and what it has of centre, axes and semi-axes.
+fn describe_quadric(dict: &Bound<'_, PyDict>, quadric: &Quadric, size: f64) -> PyResult<()> {
+    let kind = kind(quadric, size);
+    dict.set_item("coefficients", quadric.coefficients)?;
+    // A free fit may be a sphere to the eye: as ten coefficients it is still none of our spheres.
+    let typed = matches!(kind.class, Class::Plane | Class::Sphere | Class::Cylinder | Class::Cone);
+    if typed || kind.class == Class::Other {
+        dict.set_item("class", kind.class.name())?;
+        return Ok(());
+    }
+    dict.set_item("type", kind.class.name())?;
+    dict.set_item("center", kind.center.map(|p| [p.x, p.y, p.z]))?;
+    dict.set_item("axes", kind.axes.map(|axis| [axis.x, axis.y, axis.z]))?;
+    dict.set_item("semi_axes", (!kind.semi_axes.is_empty()).then_some(kind.semi_axes))
 }
 
 /// The surface with these parameters.

@@ -93,8 +93,9 @@ pub fn noise<'py>(
 
 fn describe(py: Python<'_>, part: Part) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
+    let size = part.mesh.size();
     let surfaces: PyResult<Vec<_>> =
-        part.surfaces.iter().map(|s| surface::describe(py, s)).collect();
+        part.surfaces.iter().map(|s| surface::describe(py, s, size)).collect();
     let positions = part.mesh.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
     dict.set_item("positions", rows_of_three(positions).into_pyarray(py))?;
     dict.set_item("faces", rows_of_three(part.mesh.faces.into_flattened()).into_pyarray(py))?;

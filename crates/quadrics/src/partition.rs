@@ -1,5 +1,9 @@
 //! Who owns which face.
 
+mod hand_out;
+
+pub use hand_out::hand_out;
+
 use crate::mesh::Adjacency;
 
 /// The region of every face, counted from 0.

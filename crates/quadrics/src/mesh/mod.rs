@@ -10,12 +10,14 @@ mod repair;
 mod substitute;
 mod validate;
 pub(crate) mod weld;
+mod working;
 
 pub use adjacency::{Adjacency, NONE};
 pub use geometry::Geometry;
 pub use inspect::{Inspection, inspect};
 pub use repair::{Repaired, repair};
 pub use validate::{LARGEST_COORDINATE, check_indices, validate};
+pub use working::Working;
 
 use crate::math::Point;
 

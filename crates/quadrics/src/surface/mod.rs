@@ -5,13 +5,18 @@
 
 mod cone;
 mod cylinder;
+pub mod kind;
 mod local;
+pub mod moments;
+pub mod planarity;
 mod plane;
+pub mod quadrature;
 mod quadric;
 mod refine;
 pub mod select;
 mod sphere;
 pub mod start;
+pub mod taubin;
 mod torus;
 
 pub use cone::Cone;
