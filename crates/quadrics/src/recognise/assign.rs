@@ -26,6 +26,8 @@ const FREE_FORM: f64 = 8.0;
 /// whose edges are a triangle wide, little.
 const SMOOTHNESS: f64 = 1.0;
 const SMOOTHNESS_SCAN: f64 = 0.3;
+/// No face counts for more when partitions are compared: an outlier is an outlier.
+pub const WORST: f64 = 12.0;
 /// A face is worth asking when the new surface is at most so much worse than its own.
 const SLACK: f64 = 4.0;
 

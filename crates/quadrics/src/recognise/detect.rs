@@ -12,6 +12,10 @@ use crate::surface::{Shape, Surface};
 /// Neighbourhood sizes in faces. A fit needs about a dozen vertices to mean anything, and a large
 /// neighbourhood is worth trying only where the smaller one was one surface.
 const BALLS: [usize; 5] = [14, 30, 70, 180, 450];
+/// Neighbourhoods of fewer faces may be too small for the surface they lie on.
+const SHOWS: usize = 70;
+/// A face that is out of play.
+pub const TAKEN: u32 = UNLABELLED - 1;
 /// Seeds that compete for being accepted first.
 const BATCH: usize = 12;
 /// Adjacent faces whose normals differ more are not in one neighbourhood, in radians.
@@ -49,11 +53,38 @@ pub struct Workspace {
 /// # Errors
 /// Cancellation.
 pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Result<Vec<Candidate>> {
+    let all: Vec<u32> = (0..labels.len() as u32).collect();
+    let mut dead = vec![false; labels.len()];
+    cover(context, scene, labels, &all, &BALLS, &mut dead)
+}
+
+/// The same within some unlabelled faces, with small neighbourhoods only: what hides inside a region.
+///
+/// # Errors
+/// Cancellation.
+pub fn detect_within(
+    context: &mut Context,
+    scene: &Scene,
+    labels: &mut [u32],
+    faces: &[u32],
+    dead: &mut [bool],
+) -> Result<Vec<Candidate>> {
+    let found = cover(context, scene, labels, faces, &BALLS[..2], dead);
+    faces.iter().for_each(|&f| dead[f as usize] = false);
+    found
+}
+
+fn cover(
+    context: &mut Context,
+    scene: &Scene,
+    labels: &mut [u32],
+    faces: &[u32],
+    balls: &[usize],
+    dead: &mut [bool],
+) -> Result<Vec<Candidate>> {
     let mut found: Vec<Candidate> = Vec::new();
     let mut work = Workspace::default();
-    let mut open: Vec<u32> =
-        (0..labels.len() as u32).filter(|&f| labels[f as usize] == UNLABELLED).collect();
-    let mut dead = vec![false; labels.len()];
+    let mut open: Vec<u32> = faces.to_vec();
     let total = open.len().max(1) as f64;
     loop {
         open.retain(|&f| labels[f as usize] == UNLABELLED && !dead[f as usize]);
@@ -64,9 +95,9 @@ pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Resul
         let mut batch = Vec::new();
         for _ in 0..BATCH {
             let seed = open[context.rng.random_range(0..open.len())];
-            match propose(scene, seed, labels, &mut work) {
+            match propose_from(scene, seed, labels, balls, &mut work) {
                 Some(candidate) if candidate.faces.len() >= FEWEST => batch.push(candidate),
-                _ => bury(scene, seed, &mut dead),
+                _ => bury(scene, seed, dead),
             }
         }
         batch.sort_by_key(|c| std::cmp::Reverse(c.faces.len()));
@@ -95,14 +126,25 @@ pub fn propose(
     labels: &[u32],
     work: &mut Workspace,
 ) -> Option<Candidate> {
+    propose_from(scene, seed, labels, &BALLS, work)
+}
+
+fn propose_from(
+    scene: &Scene,
+    seed: u32,
+    labels: &[u32],
+    balls: &[usize],
+    work: &mut Workspace,
+) -> Option<Candidate> {
     let mut best: Option<Candidate> = None;
-    for size in BALLS {
+    for &size in balls {
         let ball = neighbourhood(scene, seed, size, labels, &mut work.faces);
         if ball.len() * 2 < size && best.is_some() {
             break;
         }
         let Some(choice) = fit(scene, &ball, work).filter(|c| adequate(c, ball.len())) else {
-            break;
+            // A general quadric does not show before there are more vertices than coefficients.
+            if best.is_none() && size < SHOWS { continue } else { break }
         };
         let side = side_of(scene, &choice.surface, &ball);
         best = Some(Candidate { choice, faces: ball, side });

@@ -6,6 +6,7 @@ pub mod detect;
 pub mod evidence;
 pub mod moves;
 pub mod scene;
+pub mod split;
 
 use crate::context::Context;
 use crate::error::Result;
@@ -69,6 +70,12 @@ pub fn recognise(
             moves::fit(&scene, &mut models, &labels);
             Ok(())
         })?;
+        if round + 1 < ROUNDS {
+            context.timed("split", |context| {
+                split::split(context, &scene, &mut models, &mut labels)
+            })?;
+            assign::connect(&scene, &mut models, &mut labels);
+        }
         context.timed("merge", |_| {
             moves::merge(&scene, &mut models, &mut labels);
             Ok(())

@@ -12,7 +12,7 @@ use crate::surface::Surface;
 use crate::surface::select::{self, Choice, Evidence};
 
 /// What one more region costs besides its surface: its boundary and its label.
-const LABEL: f64 = 10.0;
+pub const LABEL: f64 = 10.0;
 /// Vertices that a fit looks at.
 const SAMPLES: usize = 200;
 /// Regions whose normals differ more across their border, on the mean, are not one surface.
@@ -22,15 +22,25 @@ const SMOOTH_DEG: f64 = 25.0;
 pub fn fit(scene: &Scene, models: &mut [Model], labels: &[u32]) {
     let regions = Regions::new(labels);
     models.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (id, model)| {
-        if matches!(model.surface, Surface::FreeForm) || id >= regions.len() {
-            return;
-        }
-        let faces = regions.faces(id);
-        if let Some(choice) = choose(scene, faces, scene.evidence, marks) {
-            model.side = side_of(scene, &choice.surface, faces);
-            model.surface = choice.surface;
+        if id < regions.len() {
+            refit(scene, model, regions.faces(id), marks);
         }
     });
+}
+
+/// Chooses the surface of one region anew.
+pub fn fit_one(scene: &Scene, model: &mut Model, faces: &[u32]) {
+    refit(scene, model, faces, &mut Marks::default());
+}
+
+fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
+    if matches!(model.surface, Surface::FreeForm) {
+        return;
+    }
+    if let Some(choice) = choose(scene, faces, scene.evidence, marks) {
+        model.side = side_of(scene, &choice.surface, faces);
+        model.surface = choice.surface;
+    }
 }
 
 fn choose(scene: &Scene, faces: &[u32], evidence: Evidence, marks: &mut Marks) -> Option<Choice> {

@@ -88,11 +88,10 @@ pub fn judge(surface: Surface, samples: Samples, vertices: usize, evidence: Evid
 /// but noise.
 pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choice> {
     let mut choices: Vec<Choice> = Vec::new();
-    let mut consider = |surface: Surface| {
+    let consider = |choices: &mut Vec<Choice>, surface: Surface| {
         if plausible(&surface, samples) {
             let choice = judge(surface, samples, vertices, evidence);
-            let at = choices.partition_point(|known| known.criterion <= choice.criterion);
-            choices.insert(at, choice);
+            insert(choices, choice);
         }
         choices.first().map_or(f64::INFINITY, |best| best.criterion)
     };
@@ -100,7 +99,7 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     let bound = |cost: f64| count * LEAST_MISFIT + 2.0 * cost * count.ln();
     let mut best = f64::INFINITY;
     if let Some(plane) = start::plane(samples) {
-        best = consider(plane);
+        best = consider(&mut choices, plane);
     }
     if samples.points.len() < 6 || best <= bound(5.0) {
         return choices;
@@ -109,25 +108,56 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     if let Some(cylinder) =
         best_of(axes.iter().filter_map(|a| start::cylinder(samples, a)), samples)
     {
-        best = consider(cylinder);
+        best = consider(&mut choices, cylinder);
     }
     if best > bound(6.0)
         && let Some(cone) = best_of(axes.iter().filter_map(|a| start::cone(samples, a)), samples)
     {
-        best = consider(cone);
+        best = consider(&mut choices, cone);
     }
     if best > bound(6.5)
         && let Some(sphere) = best_of(start::sphere(samples).into_iter(), samples)
     {
-        best = consider(sphere);
+        best = consider(&mut choices, sphere);
     }
     if best > bound(8.0)
         && samples.points.len() >= 10
         && let Some(torus) = best_of(axes.iter().filter_map(|a| start::torus(samples, a)), samples)
     {
-        consider(torus);
+        best = consider(&mut choices, torus);
+    }
+    let simple = choices.first().map_or(CAP, |best| best.misfit);
+    if best > bound(9.0)
+        && simple > QUADRIC_FROM
+        && samples.points.len() >= 14
+        && let Some(quadric) = start::quadric(samples)
+        && let Some(fit) = refine_within(&quadric, samples.points, &[], FINAL_ITERATIONS)
+        && !singular(&fit.surface, samples.points)
+    {
+        let choice = judge(fit.surface, samples, vertices, evidence);
+        if choice.misfit < QUADRIC_GAIN * simple {
+            insert(&mut choices, choice);
+        }
     }
     choices
+}
+
+/// A general quadric is asked only where simpler surfaces leave more than noise, and must gain on
+/// the best of them: it fits two planes, and any patch that bends twice.
+const QUADRIC_FROM: f64 = 1.2;
+const QUADRIC_GAIN: f64 = 0.8;
+
+fn insert(choices: &mut Vec<Choice>, choice: Choice) {
+    let at = choices.partition_point(|known| known.criterion <= choice.criterion);
+    choices.insert(at, choice);
+}
+
+/// Whether the gradient vanishes near the points, as it does where two planes meet.
+fn singular(surface: &Surface, points: &[Point]) -> bool {
+    let Surface::Quadric(quadric) = surface else { return false };
+    let mut slopes: Vec<f64> = points.iter().map(|&p| quadric.gradient(p).norm()).collect();
+    slopes.sort_unstable_by(f64::total_cmp);
+    slopes[slopes.len() / 20] < slopes[slopes.len() / 2] / 4.0
 }
 
 /// The best orthogonal-distance fit from several starts: a few iterations each, the winner to the end.
