@@ -12,7 +12,11 @@ use quadrics::{Mesh, format, mesh};
 use crate::error::to_python;
 
 /// A mesh of the core, copied: the run goes on while Python may change its arrays.
+///
+/// # Errors
+/// `InputError` for an index without a vertex: whatever follows may rely on them.
 pub fn mesh_from(
+    py: Python<'_>,
     positions: &PyReadonlyArray2<f64>,
     faces: &PyReadonlyArray2<u32>,
 ) -> PyResult<Mesh> {
@@ -20,10 +24,13 @@ pub fn mesh_from(
     if positions.ncols() != 3 || faces.ncols() != 3 {
         return Err(PyValueError::new_err("vertices must be (n, 3) and faces (m, 3)"));
     }
-    Ok(Mesh {
+    let mesh = Mesh {
         positions: positions.rows().into_iter().map(|p| Point::new(p[0], p[1], p[2])).collect(),
         faces: faces.rows().into_iter().map(|f| [f[0], f[1], f[2]]).collect(),
-    })
+    };
+    mesh::check_indices(&mesh.faces, mesh.positions.len())
+        .map_err(|error| to_python(py, &error))?;
+    Ok(mesh)
 }
 
 /// Reads the bytes of a file; `open` answers with those of a file that it names, or `None`.
@@ -70,7 +77,7 @@ pub fn inspect<'py>(
     positions: PyReadonlyArray2<'py, f64>,
     faces: PyReadonlyArray2<'py, u32>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mesh = mesh_from(&positions, &faces)?;
+    let mesh = mesh_from(py, &positions, &faces)?;
     let seen = py.detach(|| mesh::inspect(&mesh)).map_err(|error| to_python(py, &error))?;
     let dict = PyDict::new(py);
     let corner = |p: Point| [p.x, p.y, p.z];
@@ -97,7 +104,7 @@ pub fn write<'py>(
     positions: PyReadonlyArray2<'py, f64>,
     faces: PyReadonlyArray2<'py, u32>,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let mesh = mesh_from(&positions, &faces)?;
+    let mesh = mesh_from(py, &positions, &faces)?;
     let bytes = py.detach(|| format::write(extension, &mesh));
     Ok(PyBytes::new(py, &bytes.map_err(|error| to_python(py, &error))?))
 }
@@ -111,7 +118,7 @@ pub fn write_segmentation<'py>(
     labels: PyReadonlyArray1<'py, i32>,
     colours: PyReadonlyArray2<'py, u8>,
 ) -> PyResult<Bound<'py, PyBytes>> {
-    let mesh = mesh_from(&positions, &faces)?;
+    let mesh = mesh_from(py, &positions, &faces)?;
     let (labels, colours) = (labels.as_array().to_vec(), colours_from(&colours)?);
     if labels.len() != mesh.faces.len() || colours.len() != mesh.faces.len() {
         return Err(PyValueError::new_err("one label and one colour a face are needed"));

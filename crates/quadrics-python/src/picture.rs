@@ -23,7 +23,7 @@ pub fn render<'py>(
     width: usize,
     height: usize,
 ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-    let mesh = mesh_from(&positions, &faces)?;
+    let mesh = mesh_from(py, &positions, &faces)?;
     let colours = colours_from(&colours)?;
     let normals: Vec<Vector> =
         normals.as_array().rows().into_iter().map(|n| Vector::new(n[0], n[1], n[2])).collect();

@@ -21,7 +21,7 @@ pub fn segment<'py>(
     initial_labels: Option<PyReadonlyArray1<'py, u32>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mesh = mesh::mesh_from(&positions, &faces)?;
+    let mesh = mesh::mesh_from(py, &positions, &faces)?;
     let options = read_options(options)?;
     let labels = initial_labels.map(|labels| labels.as_array().to_vec());
     let size = mesh.size();

@@ -4,7 +4,6 @@ use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use quadrics::Context;
-use quadrics::mesh::validate;
 use quadrics::synth::{self, Noise, Part, Scanner};
 
 use crate::error::to_python;
@@ -40,7 +39,7 @@ pub fn scan<'py>(
     let surfaces: PyResult<Vec<_>> =
         surfaces.iter().map(|(kind, numbers)| surface::build(kind, numbers)).collect();
     let part = Part {
-        mesh: mesh_from(&positions, &faces)?,
+        mesh: mesh_from(py, &positions, &faces)?,
         labels: labels.as_array().to_vec(),
         surfaces: surfaces?,
     };
@@ -84,12 +83,9 @@ pub fn noise<'py>(
     ratio: f64,
     seed: u64,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let mesh = mesh_from(&positions, &faces)?;
-    let noisy = py.detach(|| {
-        // An index without a vertex would be our fault further down.
-        validate(&mesh)?;
-        synth::add_noise(&mut Context::new(seed), &mesh, &Noise::uniform(sigma, ratio))
-    });
+    let mesh = mesh_from(py, &positions, &faces)?;
+    let noisy = py
+        .detach(|| synth::add_noise(&mut Context::new(seed), &mesh, &Noise::uniform(sigma, ratio)));
     let noisy = noisy.map_err(|error| to_python(py, &error))?;
     let positions = noisy.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
     Ok(rows_of_three(positions).into_pyarray(py))

@@ -54,5 +54,5 @@ def _lines(found: dict[str, Any]) -> list[str]:
         ("Euler number", found["euler"]),
     ]
     lines = [f"{name:<19} {value}" for name, value in rows]
-    repairs = [f"{r['kind']} ({r['count']}): {r['detail']}" for r in found["repairs"]]
-    return [*lines, *(f"would repair        {repair}" for repair in repairs or ["nothing"])]
+    repairs = [r["detail"] for r in found["repairs"]]
+    return [*lines, *(f"to be handled       {repair}" for repair in repairs or ["nothing"])]

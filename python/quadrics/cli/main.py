@@ -82,8 +82,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader, such as `head`, has seen enough; Python would complain when it flushes.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
-    except Exception as error:
-        if options.debug:
+    except BaseException as error:  # A panic of the core is no Exception to PyO3.
+        if options.debug or isinstance(error, SystemExit):
             raise
         print(f"quadrics {options.command}: {_one_line(error)}", file=sys.stderr)
         return _code(error)
@@ -102,12 +102,12 @@ def entry() -> NoReturn:
     sys.exit(code)
 
 
-def _code(error: Exception) -> int:
+def _code(error: BaseException) -> int:
     codes = {OptionError: USAGE, InputError: INPUT, OutputError: OUTPUT}
     return next((code for kind, code in codes.items() if isinstance(error, kind)), FAULT)
 
 
-def _one_line(error: Exception) -> str:
+def _one_line(error: BaseException) -> str:
     text = " ".join(str(error).split())
     if _code(error) != FAULT:
         return text

@@ -35,7 +35,7 @@ def print_result(result: Result, folder: Path) -> None:
     print(f"\n{len(result.regions)} regions on {len(result.labels)} faces; lengths in {unit}; "
           f"noise {result.noise.position:.3g}; {result.timing['total_s']:.1f} s")  # fmt: skip
     for repair in result.repairs:
-        print(f"repaired: {repair.kind} ({repair.count}): {repair.detail}")
+        print(f"found and handled: {repair.detail}")
     print(f"results in {folder}, picture in {folder / 'segmentation.png'}")
 
 
