@@ -2,6 +2,8 @@
 
 mod adjacency;
 mod geometry;
+#[cfg(test)]
+pub(crate) mod samples;
 mod working;
 
 pub use adjacency::{Adjacency, NONE};
