@@ -26,8 +26,8 @@ use score::{Candidate, Inliers, Tolerance, dual};
 
 /// Probability with which the best shape may have been overlooked (Schnabel: 1 %).
 const OVERLOOKED: f64 = 0.01;
-/// Of the draws that start on a shape, the share that stays on it and determines it: measured at
-/// one third on clean parts, less on shapes of few faces.
+/// Of the draws that start on a shape, the share that stays on it and determines it: a cautious
+/// guess. Too low a share costs time only.
 const GOOD_DRAWS: f64 = 0.25;
 /// Draws after which the search ends in any case: a large free-form mesh has faces enough to go on
 /// for hours, and what was not found by then is small.

@@ -1,8 +1,8 @@
 //! The optimisation of paper, section 4.3: Lloyd's iteration between partition and proxies.
 //!
 //! It starts from labels, wherever they come from. One round grows the regions anew from their
-//! best fitted parts ([`seeds`], [`flood`]) and fits a surface to each ([`fit`]); before the first
-//! one [`merge`] and [`insert`] bring the number of regions to the one that is wanted.
+//! best fitted parts (`seeds`, `flood`) and fits a surface to each (`fit`); before the first
+//! one `merge` and `insert` bring the number of regions to the one that is wanted.
 
 mod energy;
 mod fit;

@@ -148,7 +148,23 @@ fn any_number_of_threads_gives_the_same_labels() {
 }
 
 #[test]
-fn scaling_by_the_unit_cube_leaves_faces_without_area_harmless() {
+fn the_order_of_the_faces_does_not_matter() {
+    let mesh = shaken(can(8), 0.01).mesh;
+    let straight = Working::new(mesh.clone());
+    let reversed: Vec<_> = mesh.faces.iter().rev().copied().collect();
+    let reversed = Working::new(Mesh { faces: reversed, ..mesh });
+    for seed in 0..5 {
+        let options = Options { regions: Some(4), ..Options::default() };
+        let start = connected(&straight, &random_start(&straight, 6, seed)).unwrap();
+        let backwards: Labels = start.iter().rev().copied().collect();
+        let one = run(&straight, &options, &start).labels;
+        let other = run(&reversed, &options, &backwards).labels;
+        assert!(same_partition(&one, &other.into_iter().rev().collect::<Labels>()));
+    }
+}
+
+#[test]
+fn faces_without_area_do_no_harm() {
     let mut mesh = cube(2).mesh;
     let [a, b, _] = mesh.faces[0];
     mesh.positions.push(nalgebra::center(&mesh.positions[a as usize], &mesh.positions[b as usize]));
