@@ -80,3 +80,70 @@ fn repairs(vanishing: usize, reassigned: usize) -> Vec<Repair> {
     };
     [regions, faces].into_iter().filter(|repair| repair.count > 0).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Vector;
+    use crate::mesh::samples::{Sample, can, cube};
+    use crate::partition::{components, region_count};
+
+    /// In millimetres, far from the origin.
+    fn scaled(sample: Sample) -> Mesh {
+        let place = |p: &crate::math::Point| p * 250.0 + Vector::new(1000.0, -500.0, 30.0);
+        Mesh { positions: sample.mesh.positions.iter().map(place).collect(), ..sample.mesh }
+    }
+
+    #[test]
+    fn proxies_fit_the_regions_in_the_units_of_the_input() {
+        // Edges of 25 mm in a part of 250: they are subdivided.
+        let mesh = scaled(cube(10));
+        let found = paper(&mut Context::new(0), &mesh, &Options::default(), None).unwrap();
+        assert_eq!((found.labels.len(), found.proxies.len()), (mesh.faces.len(), 6));
+        for (face, &label) in found.labels.iter().enumerate() {
+            for corner in mesh.corners(face) {
+                let off = found.proxies[label as usize].distance(corner).unwrap();
+                assert!(off.abs() < 1e-9 * 250.0, "{off}");
+            }
+        }
+        assert_eq!(found.repairs, []);
+    }
+
+    #[test]
+    fn a_coarse_can_comes_back_in_connected_regions() {
+        // Far fewer faces than the subdivided mesh has: boundaries must find the input's edges.
+        let mesh = scaled(can(3));
+        for regions in [None, Some(3), Some(8)] {
+            let options = Options { regions, ..Options::default() };
+            let found = paper(&mut Context::new(1), &mesh, &options, None).unwrap();
+            let input = Working::new(mesh.clone());
+            let (_, sizes) = components(&found.labels, &input.adjacency);
+            assert_eq!(sizes.len(), region_count(&found.labels));
+            assert_eq!(sizes.len(), found.proxies.len());
+        }
+    }
+
+    #[test]
+    fn a_start_replaces_the_detection() {
+        let Sample { mesh, labels } = can(8);
+        let mut context = Context::new(0);
+        let found = paper(&mut context, &mesh, &Options::default(), Some(&labels)).unwrap();
+        assert_eq!(found.labels, labels);
+        assert!(context.timing().iter().all(|(stage, _)| *stage != "detect"));
+        let short = paper(&mut context, &mesh, &Options::default(), Some(&labels[1..]));
+        assert!(matches!(short, Err(Error::Option(_))));
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_result_with_any_number_of_threads() {
+        let mesh = scaled(can(10));
+        let options = Options { regions: Some(5), ..Options::default() };
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| paper(&mut Context::new(3), &mesh, &options, None).unwrap())
+        };
+        let (one, three) = (with(1), with(3));
+        assert_eq!((one.labels, one.energy), (three.labels, three.energy));
+        assert_eq!(one.proxies, three.proxies);
+    }
+}

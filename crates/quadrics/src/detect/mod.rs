@@ -26,9 +26,12 @@ use score::{Candidate, Inliers, Tolerance, dual};
 
 /// Probability with which the best shape may have been overlooked (Schnabel: 1 %).
 const OVERLOOKED: f64 = 0.01;
-/// Of the draws that start on a shape, the share that stays on it and determines it: measured at
-/// one third on clean parts, less on shapes of few faces.
+/// Of the draws that start on a shape, the share that stays on it and determines it: a cautious
+/// guess. Too low a share costs time only.
 const GOOD_DRAWS: f64 = 0.25;
+/// Draws after which the search ends in any case: a large free-form mesh has faces enough to go on
+/// for hours, and what was not found by then is small.
+const MOST_DRAWS: usize = 100_000;
 /// Draws between two looks at the pool; their scores are estimated in parallel.
 const BATCH: usize = 128;
 /// Faces of the random subset that a score is estimated on.
@@ -93,8 +96,10 @@ struct Search<'a> {
     labels: Labels,
     /// The faces without a label.
     left: Vec<u32>,
+    /// Shapes taken, draws made, candidates they gave.
     taken: u32,
     draws: usize,
+    drawn: usize,
     pool: BinaryHeap<Entry>,
     /// Which search last visited a face.
     marks: Vec<u32>,
@@ -111,6 +116,7 @@ impl<'a> Search<'a> {
             left: (0..working.len() as u32).collect(),
             taken: 0,
             draws: 0,
+            drawn: 0,
             pool: BinaryHeap::new(),
             marks: vec![0; working.len()],
             mark: 0,
@@ -119,7 +125,7 @@ impl<'a> Search<'a> {
 
     /// Whether no shape of the least size can have been overlooked.
     fn is_over(&self) -> bool {
-        self.left.len() < self.least || self.is_found(self.least as f64)
+        self.left.len() < self.least || self.draws >= MOST_DRAWS || self.is_found(self.least as f64)
     }
 
     /// Whether a shape of so many faces would have been drawn by now.
@@ -136,20 +142,18 @@ impl<'a> Search<'a> {
     /// Draws a batch of candidates and bounds their scores.
     fn draw(&mut self, context: &mut Context) {
         let rng = &mut context.rng;
-        let pick = |rng: &mut rand_pcg::Pcg64Mcg| self.left[rng.random_range(0..self.left.len())];
-        let subset: Vec<u32> = if self.left.len() <= SUBSET {
-            self.left.clone()
-        } else {
-            (0..SUBSET).map(|_| pick(rng)).collect()
+        let whole = self.left.len();
+        let subset: Vec<u32> = match whole {
+            ..=SUBSET => self.left.clone(),
+            _ => (0..SUBSET).map(|_| self.left[rng.random_range(0..whole)]).collect(),
         };
-        let mut drawn = Vec::new();
+        let mut drawn = Vec::with_capacity(BATCH);
         for _ in 0..BATCH {
-            let start = self.left[rng.random_range(0..self.left.len())];
+            let start = self.left[rng.random_range(0..whole)];
             self.mark += 1;
             let (labels, marks) = (&self.labels, &mut self.marks);
             drawn.push(sample::neighbourhood(self.working, labels, start, rng, marks, self.mark));
         }
-        let whole = self.left.len();
         let bounded: Vec<(f64, Candidate)> = drawn
             .par_iter()
             .flat_map_iter(|faces| candidates(self.working, &self.tolerance, faces))
@@ -159,8 +163,8 @@ impl<'a> Search<'a> {
             })
             .collect();
         for (promise, candidate) in bounded {
-            let number = self.pool.len() + self.draws * 8;
-            self.pool.push(Entry { promise, counted: None, number, candidate });
+            self.drawn += 1;
+            self.pool.push(Entry { promise, counted: None, number: self.drawn, candidate });
         }
         self.draws += BATCH;
     }
@@ -244,3 +248,6 @@ fn worth(surface: &Surface) -> f64 {
     };
     1.0 - PRICE * extra
 }
+
+#[cfg(test)]
+mod tests;

@@ -7,6 +7,8 @@ mod geometry;
 mod inspect;
 mod orient;
 mod repair;
+#[cfg(test)]
+pub(crate) mod samples;
 mod substitute;
 mod validate;
 pub(crate) mod weld;

@@ -33,14 +33,17 @@ pub fn labels_back(
 ) -> Returned {
     let shares = shares(labels, parents, areas);
     let mut back = majority(&shares, input_areas.len());
-    let vanishing = keep_vanishing(&mut back, &shares, region_count(labels));
+    let regions = region_count(labels);
+    let vanishing = keep_vanishing(&mut back, &shares, regions);
+    let whole = back.clone();
     drop_fragments(&mut back, adjacency, input_areas);
     let reassigned = hand_out(&mut back, adjacency, normals);
     let numbered = back.clone();
-    let count = compact(&mut back);
-    let mut former = vec![UNLABELLED; count];
-    for (new, old) in back.iter().zip(numbered) {
-        former[*new as usize] = old;
+    let mut former = vec![UNLABELLED; compact(&mut back)];
+    for (face, &new) in back.iter().enumerate() {
+        // A fragment without any neighbour has become a region: it was part of its own before.
+        let known = (numbered[face] as usize) < regions;
+        former[new as usize] = if known { numbered[face] } else { whole[face] };
     }
     Returned { labels: back, former, vanishing, reassigned }
 }
@@ -136,6 +139,14 @@ mod tests {
         // Face 1 is in the middle of region 0, which falls apart: the larger part stays.
         assert_eq!((found.labels, found.reassigned), (vec![0, 0, 1, 1], 1));
         assert_eq!(found.former, [1, 0]);
+    }
+
+    #[test]
+    fn a_fragment_on_its_own_stays_a_region_of_the_same_surface() {
+        let adjacency = Adjacency::new(&[[0, 1, 2], [1, 3, 2], [4, 5, 6]], 7);
+        let normals = [Vector::z(); 3];
+        let found = labels_back(&[1, 1, 1], &[0, 1, 2], &[1.0; 3], &adjacency, &normals, &[1.0; 3]);
+        assert_eq!((found.labels, found.former), (vec![0, 0, 1], vec![1, 1]));
     }
 
     #[test]

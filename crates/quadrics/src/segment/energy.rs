@@ -48,7 +48,7 @@ fn plane_error(plane: &Plane, corners: [Point; 3], normal: Vector, beta: f64) ->
 
 /// By the rule of degree four: `f²` has that degree, and the gradient changes little over a face.
 fn quadric_error(quadric: &Quadric, corners: [Point; 3], normal: Vector, beta: f64) -> f64 {
-    let at = |(weight, point): (f64, Point)| {
+    quadrature::mean(corners, |point| {
         let (value, gradient) = value_and_gradient(&quadric.coefficients, point);
         let steep = gradient.norm_squared();
         let (distance, deviation) = if steep > NO_GRADIENT {
@@ -57,11 +57,11 @@ fn quadric_error(quadric: &Quadric, corners: [Point; 3], normal: Vector, beta: f
         } else {
             LARGEST
         };
-        weight * (distance + beta * deviation.max(0.0))
-    };
-    quadrature::points(corners).into_iter().map(at).sum()
+        distance + beta * deviation.max(0.0)
+    })
 }
 
+#[inline]
 fn value_and_gradient(c: &[f64; 10], p: Point) -> (f64, Vector) {
     let gradient = Vector::new(
         c[1] + 2.0 * c[4] * p.x + c[5] * p.y + c[6] * p.z,

@@ -1,5 +1,7 @@
 //! Surface fitting (paper, section 4.3(2)): a plane where the planarity is small, else a quadric.
 
+use std::sync::OnceLock;
+
 use rayon::prelude::*;
 
 use super::Task;
@@ -8,6 +10,11 @@ use crate::math::{Point, Unit, Vector};
 use crate::surface::moments::Moments;
 use crate::surface::planarity::Spread;
 use crate::surface::{Plane, taubin};
+
+/// Quadrics of the algebraic fit that compete.
+const CANDIDATES: usize = 3;
+/// Faces that they are compared on.
+const SAMPLE: usize = 200;
 
 /// All that a fit needs to know of a region; two of them add up.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,11 +32,22 @@ pub struct Fitted {
     pub patch: Patch,
     /// What approximates them.
     pub proxy: Proxy,
-    /// `E(R, P)`: the errors of the faces, summed.
+    /// `E(t, P)` of every face.
+    pub errors: Vec<f64>,
+    /// `E(R, P)`: their sum.
     pub error: f64,
+    /// Its seed, once somebody has asked: the same as long as the region is the same.
+    pub seed: OnceLock<Vec<u32>>,
 }
 
 impl Fitted {
+    /// A region that is approximated by `proxy`.
+    pub fn new(task: &Task, faces: Vec<u32>, patch: Patch, proxy: Proxy) -> Self {
+        let errors: Vec<f64> = faces.iter().map(|&face| task.error(&proxy, face)).collect();
+        let error = errors.iter().sum();
+        Self { faces, patch, proxy, errors, error, seed: OnceLock::new() }
+    }
+
     /// Area of the region.
     pub fn area(&self) -> f64 {
         self.patch.moments.area()
@@ -68,25 +86,40 @@ impl Patch {
         }
     }
 
-    /// The optimal proxy: a plane below the planarity limit of eq. 4, else a quadric.
-    pub fn proxy(&self, planarity_limit: f64) -> Proxy {
-        if self.spread.planarity() >= planarity_limit
-            && let Some(quadric) = taubin::quadric(&self.moments)
-        {
-            return Proxy::Quadric(quadric);
-        }
+    /// The optimal proxy of these faces: a plane below the planarity limit of eq. 4, else the
+    /// quadric of least error among those of the algebraic fit (a plane is one of them).
+    pub fn proxy<'f>(&self, task: &Task, faces: impl Fn() -> FaceIter<'f>) -> Proxy {
         // Faces without area lie anywhere in space: any plane through them does.
-        let fallback = || Plane::through(Point::origin(), Unit::new_unchecked(Vector::z()));
-        Proxy::Plane(taubin::plane(&self.moments).unwrap_or_else(fallback))
+        let any = || Plane::through(Point::origin(), Unit::new_unchecked(Vector::z()));
+        let plane = taubin::plane(&self.moments).unwrap_or_else(any);
+        if self.spread.planarity() < task.options.planarity {
+            return Proxy::Plane(plane);
+        }
+        let flat = Proxy::Quadric(plane.quadric());
+        let curved = taubin::quadrics(&self.moments).into_iter().take(CANDIDATES);
+        let error = |proxy: &Proxy| faces().map(|&face| task.error(proxy, face)).sum::<f64>();
+        std::iter::once(flat)
+            .chain(curved.map(Proxy::Quadric))
+            .map(|proxy| (error(&proxy), proxy))
+            .min_by(|one, other| one.0.total_cmp(&other.0))
+            .expect("there is the plane")
+            .1
     }
+}
+
+/// Some of a region's faces.
+pub type FaceIter<'f> = Box<dyn Iterator<Item = &'f u32> + 'f>;
+
+/// About [`SAMPLE`] of some faces, evenly.
+pub fn sample(faces: &[u32]) -> FaceIter<'_> {
+    Box::new(faces.iter().step_by((faces.len() / SAMPLE).max(1)))
 }
 
 /// Fits a proxy to some faces.
 pub fn fit(task: &Task, faces: Vec<u32>) -> Fitted {
     let patch = Patch::new(task, &faces);
-    let proxy = patch.proxy(task.options.planarity);
-    let error = task.total_error(&proxy, &faces);
-    Fitted { faces, patch, proxy, error }
+    let proxy = patch.proxy(task, || sample(&faces));
+    Fitted::new(task, faces, patch, proxy)
 }
 
 /// Fits a proxy to every region. A region whose faces are those of `before` keeps what it had:

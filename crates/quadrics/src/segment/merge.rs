@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::Task;
 use super::energy::Proxy;
-use super::fit::{Fitted, Patch};
+use super::fit::{Fitted, Patch, sample};
 use crate::error::Result;
 use crate::math::Unit;
 
@@ -20,7 +20,6 @@ struct Union {
     order: (bool, f64),
     patch: Patch,
     proxy: Proxy,
-    error: f64,
 }
 
 /// Merges pairs of adjacent regions until `count` are left, or none is adjacent to another.
@@ -51,7 +50,7 @@ pub fn merge(
         };
         let Some(couple) = unions.iter().min_by(by_order).map(|(&couple, _)| couple) else { break };
         let union = unions.remove(&couple).expect("it was found there");
-        join(&mut alive, labels, couple, union);
+        join(task, &mut alive, labels, couple, union);
         left -= 1;
         renew(task, &alive, &mut unions, couple);
     }
@@ -77,7 +76,7 @@ fn unions(task: &Task, alive: &[Option<Fitted>], of: &[Couple]) -> BTreeMap<Coup
 
 fn union(task: &Task, one: &Fitted, other: &Fitted) -> Union {
     let patch = one.patch.joined(&other.patch);
-    let proxy = patch.proxy(task.options.planarity);
+    let proxy = patch.proxy(task, || Box::new(sample(&one.faces).chain(sample(&other.faces))));
     let error = task.total_error(&proxy, &one.faces) + task.total_error(&proxy, &other.faces);
     let order = match (&one.proxy, &other.proxy) {
         (Proxy::Plane(a), Proxy::Plane(b)) => {
@@ -90,7 +89,7 @@ fn union(task: &Task, one: &Fitted, other: &Fitted) -> Union {
         }
         _ => (false, (error - (one.error + other.error)).abs()),
     };
-    Union { order, patch, proxy, error }
+    Union { order, patch, proxy }
 }
 
 /// Well conditioned for small angles, where the arc cosine is not.
@@ -99,15 +98,20 @@ fn between(a: &Unit, b: &Unit) -> f64 {
 }
 
 /// The lesser region takes over the other's faces.
-fn join(alive: &mut [Option<Fitted>], labels: &mut [u32], (i, j): Couple, union: Union) {
+fn join(
+    task: &Task,
+    alive: &mut [Option<Fitted>],
+    labels: &mut [u32],
+    (i, j): Couple,
+    union: Union,
+) {
     let one = alive[i as usize].take().expect("alive");
     let other = alive[j as usize].take().expect("alive");
     other.faces.iter().for_each(|&face| labels[face as usize] = i);
     let mut faces = one.faces;
     faces.extend(other.faces);
     faces.sort_unstable();
-    let Union { patch, proxy, error, .. } = union;
-    alive[i as usize] = Some(Fitted { faces, patch, proxy, error });
+    alive[i as usize] = Some(Fitted::new(task, faces, union.patch, union.proxy));
 }
 
 /// The pairs of the merged region, and of nobody else, are looked at again.

@@ -1,8 +1,8 @@
 //! The optimisation of paper, section 4.3: Lloyd's iteration between partition and proxies.
 //!
 //! It starts from labels, wherever they come from. One round grows the regions anew from their
-//! best fitted parts ([`seeds`], [`flood`]) and fits a surface to each ([`fit`]); before the first
-//! one [`merge`] and [`insert`] bring the number of regions to the one that is wanted.
+//! best fitted parts (`seeds`, `flood`) and fits a surface to each (`fit`); before the first
+//! one `merge` and `insert` bring the number of regions to the one that is wanted.
 
 mod energy;
 mod fit;
@@ -24,6 +24,9 @@ use crate::error::{Error, Result};
 use crate::mesh::Working;
 use crate::options::Options;
 use crate::partition::{Labels, Regions, UNLABELLED, components, hand_out};
+
+/// Rounds without a new least energy after which the loop only wanders around its best partition.
+const PATIENCE: usize = 10;
 
 /// What the loop ends with.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,19 +99,22 @@ pub fn paper(
 /// Lloyd's iteration; the best partition seen is the result.
 fn lloyd(context: &mut Context, task: &Task, mut state: State) -> Result<Outcome> {
     let mut energy = vec![state.energy()];
-    let mut best = state.clone();
+    let (mut best, mut best_round) = (state.clone(), 0);
     let mut seen = HashSet::from([fingerprint(&state.labels)]);
     for round in 0..task.options.max_iterations {
         context.step("segment", round as f64 / task.options.max_iterations as f64)?;
         state = round_of(task, state);
         energy.push(state.energy());
-        if energy[round + 1] < best.energy() {
-            best = state.clone();
+        if energy[round + 1] < energy[best_round] {
+            (best, best_round) = (state.clone(), round + 1);
         }
         let change = (energy[round + 1] - energy[round]).abs();
         // A partition that was there before is a fixed point or a cycle: nothing new can come.
         let known = !seen.insert(fingerprint(&state.labels));
-        if known || change <= task.options.convergence * energy[round] {
+        if known
+            || round + 1 - best_round >= PATIENCE
+            || change <= task.options.convergence * energy[round]
+        {
             break;
         }
     }

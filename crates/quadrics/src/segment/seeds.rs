@@ -8,14 +8,18 @@ use crate::options::Seeds;
 
 /// The seed of every region: connected faces, the one that it was found from first.
 pub fn seeds(task: &Task, labels: &[u32], regions: &[Fitted]) -> Vec<Vec<u32>> {
-    let one = |region: usize| seed(task, labels, region as u32, &regions[region]);
+    let one = |region: usize| seed(task, labels, region as u32, &regions[region]).to_vec();
     (0..regions.len()).into_par_iter().map(one).collect()
 }
 
+/// The seed of one region; its faces are those that bear its label.
+pub fn seed<'r>(task: &Task, labels: &[u32], region: u32, fitted: &'r Fitted) -> &'r [u32] {
+    fitted.seed.get_or_init(|| search(task, labels, region, fitted))
+}
+
 /// Of the neighbourhoods of the m faces of least error the one of least area-averaged error.
-pub fn seed(task: &Task, labels: &[u32], region: u32, fitted: &Fitted) -> Vec<u32> {
-    let errors: Vec<f64> =
-        fitted.faces.iter().map(|&face| task.error(&fitted.proxy, face)).collect();
+fn search(task: &Task, labels: &[u32], region: u32, fitted: &Fitted) -> Vec<u32> {
+    let errors = &fitted.errors;
     let (candidates, size) = match task.options.seeds {
         Seeds::Triangle => (1, 1),
         Seeds::Region => {
@@ -32,7 +36,7 @@ pub fn seed(task: &Task, labels: &[u32], region: u32, fitted: &Fitted) -> Vec<u3
         let total: f64 = places.iter().map(area).sum();
         if total > 0.0 { error / total } else { f64::INFINITY }
     };
-    let best = least(&errors, candidates)
+    let best = least(errors, candidates)
         .into_iter()
         .enumerate()
         .map(|(i, start)| around.nearest(start, size, &mut marks, i as u32 + 1))

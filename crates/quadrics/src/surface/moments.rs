@@ -92,13 +92,13 @@ impl Moments {
     /// Adds a triangle with its unit normal and area.
     pub fn add_triangle(&mut self, corners: [Point; 3], normal: Vector, area: f64) {
         let corners = corners.map(|corner| Point::from(corner - self.origin));
-        for (weight, point) in quadrature::points(corners) {
+        quadrature::each(corners, |weight, point| {
             let f = basis(point);
             let weighted = f.map(|value| value * weight * area);
             for (sum, [a, b]) in self.sums.iter_mut().zip(MONOMIALS.1) {
                 *sum += weighted[a] * f[b];
             }
-        }
+        });
         let centre = (corners[0].coords + corners[1].coords + corners[2].coords) / 3.0;
         self.oriented += normal * area;
         self.oriented_first += centre * normal.transpose() * area;
@@ -297,13 +297,13 @@ mod tests {
         let (mut area, mut value, mut steep, mut along) = (0.0, 0.0, 0.0, 0.0);
         for &(corners, normal, size) in &all {
             area += size;
-            for (weight, point) in quadrature::points(corners) {
+            quadrature::each(corners, |weight, point| {
                 let point = Point::from((point - region.centre) / region.extent);
                 let gradient = quadric.gradient(point);
                 value += weight * size * quadric.value(point).powi(2);
                 steep += weight * size * gradient.norm_squared();
                 along += weight * size * gradient.dot(&normal);
-            }
+            });
         }
         let close = |here: f64, there: f64| (here - there / area).abs() < 1e-10 * here.abs();
         assert!(close((c.transpose() * region.values * c)[0], value));

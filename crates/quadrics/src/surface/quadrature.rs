@@ -18,11 +18,20 @@ const RULE: [(f64, [f64; 3]); 6] = {
     ]
 };
 
-/// The six points and their weights, which add up to one.
-pub fn points([a, b, c]: [Point; 3]) -> [(f64, Point); 6] {
-    RULE.map(|(weight, [u, v, w])| {
-        (weight, Point::from(a.coords * u + b.coords * v + c.coords * w))
-    })
+/// The mean of a function over a triangle.
+#[inline]
+pub fn mean(corners: [Point; 3], mut function: impl FnMut(Point) -> f64) -> f64 {
+    let mut sum = 0.0;
+    each(corners, |weight, point| sum += weight * function(point));
+    sum
+}
+
+/// Calls back with the six points and their weights, which add up to one.
+#[inline]
+pub fn each([a, b, c]: [Point; 3], mut visit: impl FnMut(f64, Point)) {
+    for (weight, [u, v, w]) in RULE {
+        visit(weight, Point::from(a.coords * u + b.coords * v + c.coords * w));
+    }
 }
 
 #[cfg(test)]
@@ -36,8 +45,7 @@ mod tests {
         let factorial = |n: i32| (1..=n).map(f64::from).product::<f64>();
         for i in 0..=4 {
             for j in 0..=4 - i {
-                let mean: f64 =
-                    points(corners).iter().map(|(w, p)| w * p.x.powi(i) * p.y.powi(j)).sum();
+                let mean = mean(corners, |p| p.x.powi(i) * p.y.powi(j));
                 let exact = 2.0 * factorial(i) * factorial(j) / factorial(i + j + 2);
                 assert!((mean - exact).abs() < 1e-14, "x^{i} y^{j}: {mean} {exact}");
             }

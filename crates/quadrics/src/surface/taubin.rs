@@ -28,21 +28,36 @@ pub fn plane(moments: &Moments) -> Option<Plane> {
     Some(Plane::through(moments.centroid(), normal))
 }
 
-/// The quadric of Taubin's fit, with its gradient on the side of the normals; `None` without area.
+/// The stationary quadrics of Taubin's fit, their gradients on the side of the normals, the best
+/// first; none without area.
+///
+/// Nearly always the first is the one that is wanted. But `∫ |∇f|²` can come from few points: a
+/// plane with a rim is fitted by a double plane, which has a gradient on the rim alone. Which one
+/// is best under eq. 3 only a look at the faces can tell.
+pub fn quadrics(moments: &Moments) -> Vec<Quadric> {
+    moments.normalised().and_then(|region| stationary(&region)).unwrap_or_default()
+}
+
+/// The first of [`quadrics`].
 pub fn quadric(moments: &Moments) -> Option<Quadric> {
-    let region = moments.normalised()?;
+    quadrics(moments).into_iter().next()
+}
+
+fn stationary(region: &Normalised) -> Option<Vec<Quadric>> {
     // The constant has no gradient: its best value given the others is minus their mean.
     let means = region.values.fixed_view::<9, 1>(1, 0).into_owned();
     let values = region.values.fixed_view::<9, 9>(1, 1) - means * means.transpose();
     let gradients = region.gradients.fixed_view::<9, 9>(1, 1).into_owned();
     let along = region.along_normals.fixed_view::<9, 1>(1, 0).into_owned();
-    let best = oriented_minimum(values, whitening(gradients)?, along)?;
-    let coefficients = SVector::<f64, 10>::from_fn(|i, _| match i {
-        0 => -means.dot(&best),
-        _ => best[i - 1],
-    });
-    let coefficients = coefficients * best.dot(&along).signum();
-    Some(in_world(coefficients, &region))
+    let in_world = |best: SVector<f64, 9>| {
+        let coefficients = SVector::<f64, 10>::from_fn(|i, _| match i {
+            0 => -means.dot(&best),
+            _ => best[i - 1],
+        });
+        in_world(coefficients * best.dot(&along).signum(), region)
+    };
+    let minima = oriented_minima(values, whitening(gradients)?, along);
+    Some(minima.into_iter().map(in_world).collect())
 }
 
 type Nine = SMatrix<f64, 9, 9>;
@@ -58,19 +73,20 @@ fn whitening(gradients: Nine) -> Option<Nine> {
         .then(|| eigen.eigenvectors * Nine::from_diagonal(&stretch))
 }
 
-/// Of the nine stationary quadrics of `∫ f² / ∫ |∇f|²` the one that minimises `∫ f² / (∫ ∇f · n)²`.
+/// The nine stationary quadrics of `∫ f² / ∫ |∇f|²` in the order of `∫ f² / (∫ ∇f · n)²`.
 ///
-/// Nearly always the first. But through a noisy plane the first is a pair of planes, one on each
-/// side of the cloud: its gradient runs with the normals half of the time and against them the
-/// other half, so that its mean along them vanishes.
-fn oriented_minimum(values: Nine, whiten: Nine, along: SVector<f64, 9>) -> Option<SVector<f64, 9>> {
+/// Through a noisy plane the first of the former is a pair of planes, one on each side of the
+/// cloud: its gradient runs with the normals half of the time and against them the other half, so
+/// that its mean along them vanishes.
+fn oriented_minima(values: Nine, whiten: Nine, along: SVector<f64, 9>) -> Vec<SVector<f64, 9>> {
     let eigen = (whiten.transpose() * values * whiten).symmetric_eigen();
-    (0..9)
+    let mut minima: Vec<_> = (0..9)
         .map(|i| (whiten * eigen.eigenvectors.column(i), eigen.eigenvalues[i].max(0.0) + ROUNDING))
         .map(|(vector, error)| (vector, error / vector.dot(&along).powi(2)))
         .filter(|(_, cost)| cost.is_finite())
-        .min_by(|one, other| one.1.total_cmp(&other.1))
-        .map(|(vector, _)| vector)
+        .collect();
+    minima.sort_by(|one, other| one.1.total_cmp(&other.1));
+    minima.into_iter().map(|(vector, _)| vector).collect()
 }
 
 /// From the region's own coordinates to those of the mesh.
