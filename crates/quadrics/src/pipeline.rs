@@ -8,7 +8,7 @@ use crate::mesh::{Mesh, Working, repair};
 use crate::options::{Options, Preset};
 use crate::paper::paper;
 use crate::partition::{Labels, UNLABELLED, compact, hand_out, separate};
-use crate::prepare::{Ordered, labels_back, ordered, subdivide, to_own_cube, to_unit_cube};
+use crate::prepare::{in_own_cube, in_unit_cube, labels_back, subdivide};
 use crate::recognise::{self, evidence, scene::Scene};
 use crate::result::{Noise, Repair, Segmentation};
 use crate::surface::Surface;
@@ -85,14 +85,11 @@ struct Clean {
 impl Clean {
     fn new(mesh: &Mesh, preset: Preset) -> Result<(Self, Vec<Repair>)> {
         let repaired = repair(mesh)?;
-        let mut cube = repaired.mesh;
         // The paper's unit cube is that of the input's axes.
-        let into = match preset {
-            Preset::Default => to_own_cube(&cube)?,
-            Preset::Paper => to_unit_cube(&cube)?,
+        let (mesh, former, into) = match preset {
+            Preset::Default => in_own_cube(repaired.mesh)?,
+            Preset::Paper => in_unit_cube(repaired.mesh)?,
         };
-        cube.positions.iter_mut().for_each(|point| *point = into * *point);
-        let Ordered { mesh, former } = ordered(&cube);
         let mut new = vec![0; former.len()];
         former.iter().zip(0..).for_each(|(&old, face)| new[old as usize] = face);
         let clean = Self {

@@ -118,7 +118,14 @@ fn a_clean_part_gives_its_surfaces_exactly() {
         let pure = faces.iter().all(|&face| part.labels[face] == truth);
         let agrees = agrees(&region.surface, &part.surfaces[truth as usize]);
         if let (true, Some(agrees)) = (pure, agrees) {
-            assert!(agrees, "{:?} {:?}", region.surface, part.surfaces[truth as usize]);
+            assert!(
+                agrees,
+                "{:?} {:?} {:?} {}",
+                region.rms,
+                region.surface,
+                part.surfaces[truth as usize],
+                faces.len()
+            );
             exact += 1;
         }
     }

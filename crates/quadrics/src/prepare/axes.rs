@@ -1,26 +1,50 @@
-//! The axes of a part itself, so that it does not matter how it lies in its file.
+//! Into the unit cube along a part's own axes, so that it does not matter how it lies in its file.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
+use super::order::{Ordered, ordered};
 use super::to_unit_cube;
 use crate::error::Result;
 use crate::math::{Point, Similarity, Vector};
 use crate::mesh::{Geometry, Mesh};
 
-/// The similarity that takes a mesh, turned into its own axes, into the unit cube.
+/// A mesh in the unit cube, the former number of every face, and how it came there.
+pub type Placed = (Mesh, Vec<u32>, Similarity);
+
+/// The mesh in the unit cube of the input's axes, in an order of its own.
 ///
 /// # Errors
 /// Those of [`to_unit_cube`].
-pub fn to_own_cube(mesh: &Mesh) -> Result<Similarity> {
-    // In two steps: the third powers of large coordinates might overflow.
-    let first = to_unit_cube(mesh)?;
-    let moved = |mesh: &Mesh, by: &Similarity| Mesh {
-        positions: mesh.positions.iter().map(|point| by * point).collect(),
-        faces: mesh.faces.clone(),
-    };
-    let upright = moved(mesh, &first);
-    let turn = nalgebra::convert(own_axes(&upright));
-    Ok(to_unit_cube(&moved(&upright, &turn))? * turn * first)
+pub fn in_unit_cube(mesh: Mesh) -> Result<Placed> {
+    let into = to_unit_cube(&mesh)?;
+    let Ordered { mesh, former } = ordered(&moved(mesh, &into));
+    Ok((mesh, former, into))
+}
+
+/// The same in the unit cube of the part's own axes: up to symmetries of the part, it does not matter
+/// how it lies in the file.
+///
+/// # Errors
+/// Those of [`to_unit_cube`].
+pub fn in_own_cube(mesh: Mesh) -> Result<Placed> {
+    // In order before anything is summed, so that the file's order does not show in the last digit.
+    let (mesh, first, upright) = in_unit_cube(mesh)?;
+    let turn: Similarity = nalgebra::convert(own_axes(&mesh));
+    let (mut mesh, second, into) = in_unit_cube(moved(mesh, &turn))?;
+    for point in &mut mesh.positions {
+        point.coords.apply(|c| *c = (*c / GRID).round() * GRID);
+    }
+    let former = second.into_iter().map(|face| first[face as usize]).collect();
+    Ok((mesh, former, into * turn * upright))
+}
+
+/// Coordinates are rounded to this fraction of the size, far below any scanner's: what rounding a
+/// rotation leaves behind must not decide a tie.
+const GRID: f64 = 1.0 / (1u64 << 30) as f64;
+
+fn moved(mut mesh: Mesh, by: &Similarity) -> Mesh {
+    mesh.positions.iter_mut().for_each(|point| *point = by * *point);
+    mesh
 }
 
 /// The rotation into the principal axes of the mesh's area, longest first, each towards its heavier

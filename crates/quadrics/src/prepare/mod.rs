@@ -8,7 +8,7 @@ mod order;
 mod subdivide;
 mod unit_cube;
 
-pub use axes::to_own_cube;
+pub use axes::{Placed, in_own_cube, in_unit_cube};
 pub use back::{Returned, labels_back};
 pub use order::{Ordered, ordered};
 pub use subdivide::{Subdivided, subdivide};
