@@ -3,17 +3,23 @@
 #![forbid(unsafe_code)]
 
 pub mod context;
+pub mod describe;
+pub mod detect;
 pub mod error;
 pub mod format;
 pub mod math;
 pub mod mesh;
 pub mod options;
+pub mod paper;
 pub mod partition;
 pub mod pipeline;
 pub mod prepare;
 pub mod recognise;
+pub mod render;
 pub mod result;
+pub mod segment;
 pub mod surface;
+pub mod synth;
 
 pub use context::Context;
 pub use error::Error;

@@ -1,5 +1,7 @@
 //! What a user may choose, and what holds when nothing is chosen.
 
+use crate::error::{Error, Result};
+
 /// Which method runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Preset {
@@ -79,6 +81,58 @@ impl Default for Options {
             insertion_threshold: None,
             max_iterations: 50,
             convergence: 1e-4,
+        }
+    }
+}
+
+impl Options {
+    /// Whether every option is in its range.
+    ///
+    /// # Errors
+    /// [`Error::Option`] with the first that is not, and its range.
+    pub fn check(&self) -> Result<()> {
+        let positive = |value: f64| value > 0.0;
+        let not_negative = |value: f64| value >= 0.0;
+        require(self.regions != Some(0), "regions", 0.0, "at least 1")?;
+        require(positive(self.max_edge), "max_edge", self.max_edge, "a length above 0")?;
+        require((-1.0..=1.0).contains(&self.alpha), "alpha", self.alpha, "a cosine")?;
+        require(positive(self.epsilon), "epsilon", self.epsilon, "a length above 0")?;
+        require(self.tau > 0, "tau", 0.0, "at least 1")?;
+        require(not_negative(self.beta), "beta", self.beta, "0 or more")?;
+        require(self.seed_candidates > 0, "seed_candidates", 0.0, "at least 1")?;
+        let fraction = self.seed_fraction;
+        require(fraction > 0.0 && fraction <= 1.0, "seed_fraction", fraction, "in (0, 1]")?;
+        require(not_negative(self.planarity), "planarity", self.planarity, "0 or more")?;
+        let angle = self.merge_angle_deg;
+        require((0.0..=180.0).contains(&angle), "merge_angle_deg", angle, "in [0, 180]")?;
+        if let Some(threshold) = self.insertion_threshold {
+            require(positive(threshold), "insertion_threshold", threshold, "above 0")?;
+        }
+        require(not_negative(self.convergence), "convergence", self.convergence, "0 or more")
+    }
+}
+
+fn require(holds: bool, name: &str, value: f64, range: &str) -> Result<()> {
+    if holds { Ok(()) } else { Err(Error::Option(format!("{name} is {value}: give {range}"))) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_pass_and_what_is_out_of_range_is_named() {
+        assert_eq!(Options::default().check(), Ok(()));
+        let endless = Options { max_edge: f64::INFINITY, ..Options::default() };
+        assert_eq!(endless.check(), Ok(()));
+        let wrong = [
+            ("regions", Options { regions: Some(0), ..Options::default() }),
+            ("alpha", Options { alpha: f64::NAN, ..Options::default() }),
+            ("max_edge", Options { max_edge: -1.0, ..Options::default() }),
+            ("seed_fraction", Options { seed_fraction: 0.0, ..Options::default() }),
+        ];
+        for (name, options) in wrong {
+            assert!(options.check().unwrap_err().to_string().starts_with(name));
         }
     }
 }

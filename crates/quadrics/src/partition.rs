@@ -1,5 +1,11 @@
 //! Who owns which face.
 
+mod hand_out;
+mod separate;
+
+pub use hand_out::hand_out;
+pub use separate::separate;
+
 use crate::mesh::Adjacency;
 
 /// The region of every face, counted from 0.

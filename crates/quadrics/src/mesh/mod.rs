@@ -7,15 +7,19 @@ mod geometry;
 mod inspect;
 mod orient;
 mod repair;
+#[cfg(test)]
+pub(crate) mod samples;
 mod substitute;
 mod validate;
 pub(crate) mod weld;
+mod working;
 
 pub use adjacency::{Adjacency, NONE};
 pub use geometry::Geometry;
 pub use inspect::{Inspection, inspect};
 pub use repair::{Repaired, repair};
 pub use validate::{LARGEST_COORDINATE, check_indices, validate};
+pub use working::Working;
 
 use crate::math::Point;
 

@@ -1,4 +1,15 @@
-//! What happens to a mesh before surfaces are sought.
+//! What happens to a mesh before surfaces are sought: unit cube, subdivision, noise, normals.
 
+mod axes;
+mod back;
 pub mod noise;
 pub mod normals;
+mod order;
+mod subdivide;
+mod unit_cube;
+
+pub use axes::{Placed, in_own_cube, in_unit_cube};
+pub use back::{Returned, labels_back};
+pub use order::{Ordered, ordered};
+pub use subdivide::{Subdivided, subdivide};
+pub use unit_cube::to_unit_cube;

@@ -5,14 +5,20 @@
 
 mod cone;
 mod cylinder;
+pub mod kind;
 mod local;
+pub mod moments;
+pub mod planarity;
 mod plane;
+pub mod quadrature;
 mod quadric;
 mod refine;
 pub mod select;
 mod sphere;
 pub mod start;
+pub mod taubin;
 mod torus;
+mod uncertainty;
 
 pub use cone::Cone;
 pub use cylinder::Cylinder;
@@ -22,8 +28,10 @@ pub use refine::{Fit, centroid, refine, refine_within};
 pub use sphere::Sphere;
 pub use start::Samples;
 pub use torus::Torus;
+pub use uncertainty::uncertainty;
 
 use crate::math::{Point, Similarity, Unit};
+use kind::Class;
 
 /// What every analytic surface can be asked.
 pub trait Shape {
@@ -62,7 +70,7 @@ pub enum Surface {
 }
 
 impl Surface {
-    /// The name of its type, as in the result files.
+    /// The name of its type; [`Self::class_name`] tells quadrics apart.
     pub fn type_name(&self) -> &'static str {
         match self {
             Self::Plane(_) => "plane",
@@ -72,6 +80,18 @@ impl Surface {
             Self::Torus(_) => "torus",
             Self::Quadric(_) => "quadric",
             Self::FreeForm => "freeform",
+        }
+    }
+
+    /// The name of its type, as in the result files: of a general quadric in a part whose longest
+    /// side is `size` its class, where that has a name of its own.
+    pub fn class_name(&self, size: f64) -> &'static str {
+        let Self::Quadric(s) = self else { return self.type_name() };
+        match kind::kind(s, size).class {
+            Class::Plane | Class::Sphere | Class::Cylinder | Class::Cone | Class::Other => {
+                "quadric"
+            }
+            class => class.name(),
         }
     }
 
@@ -144,3 +164,5 @@ impl Surface {
 mod refine_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod uncertainty_tests;

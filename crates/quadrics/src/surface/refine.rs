@@ -5,11 +5,11 @@
 //! (ECCV 1998): as a cylinder flattens its curvature goes to zero and nothing becomes singular,
 //! where its radius would go to infinity.
 
-use nalgebra::{Const, DimMin, SMatrix, SVector};
+use nalgebra::{Const, DimMin, SMatrix, SVector, UnitQuaternion};
 
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
-use super::{Quadric, Shape, Surface};
-use crate::math::{Point, Vector};
+use super::{Quadric, Surface};
+use crate::math::{Point, Similarity, Vector};
 
 /// A fitted surface and how well it fits.
 #[derive(Debug, Clone)]
@@ -26,6 +26,10 @@ pub(super) trait Local<const N: usize>: Clone {
     fn residual(&self, point: Point) -> (f64, SVector<f64, N>);
     /// The surface after a step; `None` where it would stop being one.
     fn moved(&self, step: &SVector<f64, N>) -> Option<Self>;
+    /// A direction in which a step changes nothing, if there is one.
+    fn gauge(&self) -> Option<SVector<f64, N>> {
+        None
+    }
 }
 
 /// Most iterations of a fit; 8 are the rule.
@@ -60,6 +64,35 @@ fn normal_equations<const N: usize, M: Local<N>>(
     matrix.fill_upper_triangle_with_lower_triangle();
     (matrix, gradient, cost)
 }
+
+/// Covariance of the local unknowns for residuals of unit variance: `(JᵀJ)⁻¹`.
+///
+/// `None` where the points leave an unknown free.
+pub(super) fn covariance<const N: usize, M: Local<N>>(
+    model: &M,
+    points: &[Point],
+) -> Option<SMatrix<f64, N, N>>
+where
+    Const<N>: DimMin<Const<N>, Output = Const<N>>,
+{
+    let (matrix, _, _) = normal_equations(model, points, &[]);
+    // Curvatures and angles have different units: the diagonal makes them comparable.
+    let scale = matrix.diagonal().map(|value| 1.0 / value.sqrt());
+    if !scale.iter().all(|value| value.is_finite()) {
+        return None;
+    }
+    let scale = SMatrix::from_diagonal(&scale);
+    let scaled = scale * matrix * scale;
+    // A direction without effect (the scale of ten coefficients) is held fast.
+    let held = model.gauge().and_then(|g| (scale.try_inverse()? * g).try_normalize(0.0));
+    let held = held.map_or(scaled, |g| scaled + g * g.transpose());
+    let factor = held.cholesky()?;
+    let least = factor.l_dirty().diagonal().min();
+    (least * least > FREE).then(|| scale * factor.inverse() * scale)
+}
+
+/// Least squared pivot of scaled normal equations that is more than rounding.
+const FREE: f64 = 1e-13;
 
 fn cost_of<const N: usize, M: Local<N>>(model: &M, points: &[Point], weights: &[f64]) -> f64 {
     let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
@@ -160,13 +193,27 @@ pub fn centroid(points: &[Point]) -> Option<Point> {
 /// A quadric near the data, whose distances are `f / |∇f|` (Taubin 1991): exact to first order, and
 /// on points near the surface the orthogonal distance.
 #[derive(Clone)]
-struct LocalQuadric {
+pub(super) struct LocalQuadric {
     centre: Point,
     scale: f64,
     coefficients: SVector<f64, 10>,
 }
 
 impl LocalQuadric {
+    pub(super) fn new(quadric: &Quadric, points: &[Point]) -> Option<Self> {
+        let centre = centroid(points)?;
+        let spread = points.iter().map(|p| (p - centre).norm_squared()).sum::<f64>();
+        let scale = (spread / points.len() as f64).sqrt().max(1e-12);
+        let local = quadric.transformed(&frame_at(centre, scale).inverse());
+        let coefficients = SVector::from(local.coefficients).try_normalize(1e-300)?;
+        Some(Self { centre, scale, coefficients })
+    }
+
+    pub(super) fn surface(&self) -> Option<Surface> {
+        let local = Quadric { coefficients: self.coefficients.into() };
+        Some(Surface::Quadric(local.transformed(&frame_at(self.centre, self.scale))))
+    }
+
     fn monomials(&self, point: Point) -> (SVector<f64, 10>, Vector) {
         let p = (point - self.centre) / self.scale;
         let (x, y, z) = (p.x, p.y, p.z);
@@ -209,6 +256,15 @@ impl Local<10> for LocalQuadric {
         let coefficients = (self.coefficients + step).try_normalize(1e-12)?;
         Some(Self { coefficients, ..self.clone() })
     }
+
+    fn gauge(&self) -> Option<SVector<f64, 10>> {
+        Some(self.coefficients)
+    }
+}
+
+/// World = centre + scale * local.
+fn frame_at(centre: Point, scale: f64) -> Similarity {
+    Similarity::from_parts(centre.coords.into(), UnitQuaternion::identity(), scale)
 }
 
 fn refine_quadric(
@@ -217,19 +273,11 @@ fn refine_quadric(
     weights: &[f64],
     iterations: usize,
 ) -> Option<(Surface, f64)> {
-    use nalgebra::{Similarity3, UnitQuaternion};
-    let centre = centroid(points)?;
-    let spread = points.iter().map(|p| (p - centre).norm_squared()).sum::<f64>();
-    let scale = (spread / points.len() as f64).sqrt().max(1e-12);
-    // World = centre + scale * local.
-    let there = Similarity3::from_parts(centre.coords.into(), UnitQuaternion::identity(), scale);
-    let local = quadric.transformed(&there.inverse());
-    let coefficients = SVector::from(local.coefficients).try_normalize(1e-300)?;
-    let start = LocalQuadric { centre, scale, coefficients };
+    let start = LocalQuadric::new(quadric, points)?;
     let (model, _) = minimise(start, points, weights, iterations);
-    let local = Quadric { coefficients: model.coefficients.into() };
-    let world = local.transformed(&there);
+    let surface = model.surface()?;
     let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
-    let cost = points.iter().enumerate().map(|(i, &p)| weight(i) * world.distance(p).powi(2)).sum();
-    Some((Surface::Quadric(world), cost))
+    let square = |p: &Point| surface.distance(*p).map_or(0.0, |d| d * d);
+    let cost = points.iter().enumerate().map(|(i, p)| weight(i) * square(p)).sum();
+    Some((surface, cost))
 }

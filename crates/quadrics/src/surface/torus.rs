@@ -28,7 +28,7 @@ impl Torus {
     }
 
     /// From the nearest point of the spine to a point; `None` on the axis.
-    fn from_spine(&self, point: Point) -> Option<Vector> {
+    fn off_spine(&self, point: Point) -> Option<Vector> {
         let offset = point - self.center;
         let radial = offset - self.axis.into_inner() * self.axis.dot(&offset);
         let outward = Unit::try_new(radial, f64::MIN_POSITIVE)?;
@@ -47,6 +47,6 @@ impl Shape for Torus {
     }
 
     fn normal(&self, point: Point) -> Option<Unit> {
-        Unit::try_new(self.from_spine(point)?, f64::MIN_POSITIVE)
+        Unit::try_new(self.off_spine(point)?, f64::MIN_POSITIVE)
     }
 }

@@ -1,0 +1,206 @@
+//! What the result says of every region, from labels and the surfaces that they were recognised by.
+
+mod confidence;
+mod fit;
+
+pub use confidence::{confidence, is_noteworthy};
+pub use fit::{Recognised, fit};
+
+use rayon::prelude::*;
+
+use crate::context::Context;
+use crate::error::Result;
+use crate::math::{Point, Similarity};
+use crate::mesh::{Adjacency, NONE};
+use crate::partition::Regions;
+use crate::recognise::scene::{Marks, Scene};
+use crate::result::{Region, Side};
+use crate::surface::{Cylinder, Surface, centroid, uncertainty};
+
+/// Regions between two looks at the clock.
+const CHUNK: usize = 32;
+
+/// Descriptions of all regions, and the deviation of normals over all of them.
+#[derive(Debug, Clone, Default)]
+pub struct Described {
+    /// In the frame that `out` leads to.
+    pub regions: Vec<Region>,
+    /// Standard deviation of the face normals from those of the surfaces, in degrees.
+    pub normal_deg: f64,
+}
+
+/// Describes the regions of `labels` on the mesh of `scene`, which lies in the unit cube; `surfaces`
+/// has one for every label, in that cube, and `out` leads from it to the frame of the result.
+///
+/// # Errors
+/// Cancellation.
+pub fn describe(
+    context: &mut Context,
+    scene: &Scene,
+    labels: &[u32],
+    surfaces: &[Surface],
+    out: &Similarity,
+) -> Result<Described> {
+    let regions = Regions::new(labels);
+    let neighbours = neighbours(labels, &scene.adjacency, regions.len());
+    let mut described = Described::default();
+    let mut angles = Vec::new();
+    for (chunk, known) in surfaces.chunks(CHUNK).enumerate() {
+        let first = chunk * CHUNK;
+        context.step("describe", first as f64 / surfaces.len() as f64)?;
+        let rows: Vec<_> = known
+            .par_iter()
+            .enumerate()
+            .map_init(Marks::default, |marks, (i, known)| {
+                one(scene, regions.faces(first + i), known, out, marks)
+            })
+            .collect();
+        for (region, own) in rows {
+            described.regions.push(region);
+            angles.extend(own);
+        }
+    }
+    for (id, (region, neighbours)) in described.regions.iter_mut().zip(neighbours).enumerate() {
+        region.id = id as u32;
+        region.neighbours = neighbours;
+    }
+    described.normal_deg = rayleigh(&mut angles);
+    Ok(described)
+}
+
+/// Everything of one region but its place among the others, and the angles of its face normals.
+fn one(
+    scene: &Scene,
+    faces: &[u32],
+    known: &Surface,
+    out: &Similarity,
+    marks: &mut Marks,
+) -> (Region, Vec<f64>) {
+    let found = fit(scene, faces, known, marks);
+    let (surface, side) = oriented(scene, faces, found.surface);
+    let surface = anchored(surface, &found.support);
+    let scale = out.scaling();
+    let deviations = deviations(scene, faces, &surface, marks);
+    let angles = angles(scene, faces, &surface, side);
+    let area: f64 = faces.iter().map(|&face| scene.geometry.areas[face as usize]).sum();
+    let weigh = |(&face, angle): (&u32, &f64)| scene.geometry.areas[face as usize] * angle;
+    let turned: f64 = faces.iter().zip(&angles).map(weigh).sum();
+    let region = Region {
+        id: 0,
+        side,
+        confidence: found.confidence,
+        runner_up: found.runner_up.map(|other| other.class_name(1.0)),
+        faces: faces.len(),
+        area: area * scale * scale,
+        rms: deviations.map(|(rms, _)| rms * scale),
+        max_deviation: deviations.map(|(_, most)| most * scale),
+        mean_normal_deviation_deg: deviations.map(|_| turned / area.max(f64::MIN_POSITIVE)),
+        uncertainty: uncertainty(&surface, &found.support, found.sigma, out),
+        neighbours: Vec::new(),
+        surface: surface.transformed(out),
+    };
+    (region, angles)
+}
+
+/// The surface with a plane's normal outward by the mesh, and the side of the material.
+fn oriented(scene: &Scene, faces: &[u32], surface: Surface) -> (Surface, Side) {
+    let along = |&face: &u32| {
+        let face = face as usize;
+        let normal = surface.normal(scene.geometry.barycentres[face])?;
+        Some(scene.geometry.areas[face] * normal.dot(&scene.geometry.normals[face]))
+    };
+    let agrees = faces.iter().filter_map(along).sum::<f64>() >= 0.0;
+    match surface {
+        Surface::Plane(mut plane) if !agrees => {
+            (plane.normal, plane.offset) = (-plane.normal, -plane.offset);
+            (Surface::Plane(plane), Side::Outside)
+        }
+        Surface::Quadric(quadric) => {
+            // Like a sphere's, normals look away from the centre; a saddle's go with the mesh.
+            let (_, _, form) = quadric.parts();
+            let values = form.symmetric_eigenvalues();
+            let flat = 1e-3 * values.amax();
+            let sign = |value: &f64| if value.abs() > flat { value.signum() } else { 0.0 };
+            let sum: f64 = values.iter().map(sign).sum();
+            let flip = if sum == 0.0 { !agrees } else { sum < 0.0 };
+            let side = if agrees != flip { Side::Outside } else { Side::Inside };
+            (Surface::Quadric(if flip { quadric.flipped() } else { quadric }), side)
+        }
+        other => (other, if agrees { Side::Outside } else { Side::Inside }),
+    }
+}
+
+/// The surface with the point of a cylinder's axis beside the data, where it is known best.
+fn anchored(surface: Surface, support: &[Point]) -> Surface {
+    match (surface, centroid(support)) {
+        (Surface::Cylinder(s), Some(near)) => {
+            let point = s.point + s.axis.into_inner() * s.axis.dot(&(near - s.point));
+            Surface::Cylinder(Cylinder { point, ..s })
+        }
+        (other, _) => other,
+    }
+}
+
+/// Root mean square and largest distance of the vertices of some faces.
+fn deviations(
+    scene: &Scene,
+    faces: &[u32],
+    surface: &Surface,
+    marks: &mut Marks,
+) -> Option<(f64, f64)> {
+    marks.clear(scene.mesh.positions.len());
+    let (mut squares, mut most, mut count) = (0.0, 0f64, 0usize);
+    for &vertex in faces.iter().flat_map(|&face| &scene.mesh.faces[face as usize]) {
+        if marks.mark(vertex) {
+            let distance = surface.distance(scene.mesh.positions[vertex as usize])?;
+            squares += distance * distance;
+            most = most.max(distance.abs());
+            count += 1;
+        }
+    }
+    Some(((squares / count.max(1) as f64).sqrt(), most))
+}
+
+/// Angles between the normals of faces and of their surface, in degrees; empty for free-form.
+fn angles(scene: &Scene, faces: &[u32], surface: &Surface, side: Side) -> Vec<f64> {
+    if matches!(surface, Surface::FreeForm) {
+        return Vec::new();
+    }
+    let sign = if side == Side::Outside { 1.0 } else { -1.0 };
+    let angle = |&face: &u32| {
+        let face = face as usize;
+        // On an axis or in a centre there is no normal to deviate from.
+        surface.normal(scene.geometry.barycentres[face]).map_or(0.0, |normal| {
+            // Between unit vectors, exact for small angles too.
+            let chord = (normal.into_inner() * sign - scene.geometry.normals[face]).norm();
+            (2.0 * (chord / 2.0).min(1.0).asin()).to_degrees()
+        })
+    };
+    faces.iter().map(angle).collect()
+}
+
+/// Standard deviation per direction of angles in two, by their median: creases do not count.
+fn rayleigh(angles: &mut [f64]) -> f64 {
+    let middle = angles.len() / 2;
+    if angles.is_empty() {
+        return 0.0;
+    }
+    *angles.select_nth_unstable_by(middle, f64::total_cmp).1 / (2.0 * 2f64.ln()).sqrt()
+}
+
+/// For every region the regions across its edges, ascending.
+fn neighbours(labels: &[u32], adjacency: &Adjacency, count: usize) -> Vec<Vec<u32>> {
+    let mut pairs = Vec::new();
+    for (face, &label) in labels.iter().enumerate() {
+        for other in adjacency.neighbours[face] {
+            if other != NONE && labels[other as usize] != label {
+                pairs.push((label, labels[other as usize]));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mut neighbours = vec![Vec::new(); count];
+    pairs.into_iter().for_each(|(region, other)| neighbours[region as usize].push(other));
+    neighbours
+}

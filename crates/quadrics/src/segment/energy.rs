@@ -1,0 +1,151 @@
+//! The distance of a triangle to a proxy (paper, eq. 2 and 3); eq. 1 is its sum.
+
+use crate::math::{Point, Vector};
+use crate::surface::quadrature;
+use crate::surface::{Plane, Quadric, Surface};
+
+/// What a region is approximated by; its gradient points to the side of the region's normals.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Proxy {
+    /// A plane: a quadric whose gradient is a constant unit vector.
+    Plane(Plane),
+    /// A general quadric.
+    Quadric(Quadric),
+}
+
+/// Below this squared gradient a quadric has no direction (an apex, an axis, a centre). Its
+/// coefficients are of the order of one in the unit cube.
+const NO_GRADIENT: f64 = 1e-24;
+/// What a point without direction counts: no distance in the unit cube is larger than √3, and no
+/// two unit vectors are further apart than 2.
+const LARGEST: (f64, f64) = (3.0, 4.0);
+
+impl Proxy {
+    /// As a surface.
+    pub fn surface(&self) -> Surface {
+        match self {
+            Self::Plane(plane) => Surface::Plane(plane.clone()),
+            Self::Quadric(quadric) => Surface::Quadric(quadric.clone()),
+        }
+    }
+
+    /// `E(t, f)` of eq. 2 for a triangle with its unit normal and area.
+    pub fn error(&self, corners: [Point; 3], normal: Vector, area: f64, beta: f64) -> f64 {
+        match self {
+            Self::Plane(plane) => plane_error(plane, corners, normal, beta) * area,
+            Self::Quadric(quadric) => quadric_error(quadric, corners, normal, beta) * area,
+        }
+    }
+}
+
+/// In closed form: `f` is linear on the triangle and the deviation constant.
+fn plane_error(plane: &Plane, corners: [Point; 3], normal: Vector, beta: f64) -> f64 {
+    let [a, b, c] = corners.map(|p| plane.normal.dot(&p.coords) - plane.offset);
+    // The mean of a squared linear function by its values at the corners.
+    let distance = (a * a + b * b + c * c + a * b + b * c + c * a) / 6.0;
+    distance.max(0.0) + beta * (plane.normal.into_inner() - normal).norm_squared()
+}
+
+/// By the rule of degree four: `f²` has that degree, and the gradient changes little over a face.
+fn quadric_error(quadric: &Quadric, corners: [Point; 3], normal: Vector, beta: f64) -> f64 {
+    quadrature::mean(corners, |point| {
+        let (value, gradient) = value_and_gradient(&quadric.coefficients, point);
+        let steep = gradient.norm_squared();
+        let (distance, deviation) = if steep > NO_GRADIENT {
+            // |g/|g| - n|² = 2 - 2 g·n/|g| for a unit n.
+            (value * value / steep, 2.0 - 2.0 * gradient.dot(&normal) / steep.sqrt())
+        } else {
+            LARGEST
+        };
+        distance + beta * deviation.max(0.0)
+    })
+}
+
+#[inline]
+fn value_and_gradient(c: &[f64; 10], p: Point) -> (f64, Vector) {
+    let gradient = Vector::new(
+        c[1] + 2.0 * c[4] * p.x + c[5] * p.y + c[6] * p.z,
+        c[2] + c[5] * p.x + 2.0 * c[7] * p.y + c[8] * p.z,
+        c[3] + c[6] * p.x + c[8] * p.y + 2.0 * c[9] * p.z,
+    );
+    // Euler: x·∇f is twice the quadratic part plus the linear one.
+    let value = c[0] + (gradient.dot(&p.coords) + c[1] * p.x + c[2] * p.y + c[3] * p.z) / 2.0;
+    (value, gradient)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+    use rand::RngExt;
+
+    use super::*;
+    use crate::context::Context;
+    use crate::math::Unit;
+
+    fn triangle(rng: &mut impl rand::Rng, size: f64) -> ([Point; 3], Vector, f64) {
+        let mut draw = |far: f64| Vector::from_fn(|_, _| rng.random_range(-far..far));
+        let middle = Point::new(0.5, 0.5, 0.5) + draw(0.4);
+        let [a, b, c] = [middle + draw(size), middle + draw(size), middle + draw(size)];
+        let cross = (b - a).cross(&(c - a));
+        ([a, b, c], cross.normalize(), cross.norm() / 2.0)
+    }
+
+    /// Eq. 3 by the midpoint rule on 64² small triangles.
+    fn slowly(f: &Quadric, [a, b, c]: [Point; 3], normal: Vector, area: f64, beta: f64) -> f64 {
+        let n = 64;
+        let mut sum = 0.0;
+        let mut add = |u: f64, v: f64| {
+            let p = a + (b - a) * (u / f64::from(n)) + (c - a) * (v / f64::from(n));
+            let gradient = f.gradient(p);
+            let deviation = gradient.normalize() - normal;
+            sum += f.value(p).powi(2) / gradient.norm_squared() + beta * deviation.norm_squared();
+        };
+        for i in 0..n {
+            for j in 0..n - i {
+                let (i, j) = (f64::from(i), f64::from(j));
+                add(i + 1.0 / 3.0, j + 1.0 / 3.0);
+                if i + j < f64::from(n) - 1.5 {
+                    add(i + 2.0 / 3.0, j + 2.0 / 3.0);
+                }
+            }
+        }
+        sum * area / f64::from(n * n)
+    }
+
+    #[test]
+    fn the_rule_agrees_with_slow_quadrature() {
+        let mut rng = Context::new(1).rng;
+        let centre = Point::new(-0.7, -0.6, -0.5);
+        let forms = [Vector::new(1.0, 1.0, 1.0), Vector::new(1.0, 2.0, 0.0)];
+        for form in forms.map(|values| Matrix3::from_diagonal(&values)) {
+            let quadric = Quadric::about(centre, -2.0, form);
+            for _ in 0..50 {
+                let (corners, normal, area) = triangle(&mut rng, 0.03);
+                let fast = Proxy::Quadric(quadric.clone()).error(corners, normal, area, 0.1);
+                let slow = slowly(&quadric, corners, normal, area, 0.1);
+                assert!((fast - slow).abs() < 1e-3 * slow, "{fast} {slow}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_plane_costs_what_its_ten_coefficients_cost() {
+        let mut rng = Context::new(2).rng;
+        for _ in 0..200 {
+            let (corners, normal, area) = triangle(&mut rng, 0.2);
+            let (_, other, _) = triangle(&mut rng, 0.2);
+            let plane = Plane::through(corners[1], Unit::new_normalize(other));
+            let general = Proxy::Quadric(plane.quadric());
+            let exact = Proxy::Plane(plane).error(corners, normal, area, 0.3);
+            let by_rule = general.error(corners, normal, area, 0.3);
+            assert!((exact - by_rule).abs() < 1e-12, "{exact} {by_rule}");
+        }
+    }
+
+    #[test]
+    fn at_an_apex_the_error_is_large_but_finite() {
+        let cone = Quadric::about(Point::origin(), 0.0, Matrix3::identity());
+        let error = Proxy::Quadric(cone).error([Point::origin(); 3], Vector::z(), 1.0, 1.0);
+        assert!((error - 7.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,176 @@
+//! The optimisation of paper, section 4.3: Lloyd's iteration between partition and proxies.
+//!
+//! It starts from labels, wherever they come from. One round grows the regions anew from their
+//! best fitted parts (`seeds`, `flood`) and fits a surface to each (`fit`); before the first
+//! one `merge` and `insert` bring the number of regions to the one that is wanted.
+
+mod energy;
+mod fit;
+mod flood;
+mod insert;
+mod merge;
+mod queue;
+mod seeds;
+
+pub use energy::Proxy;
+
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use fit::{Fitted, fit_all};
+
+use crate::context::Context;
+use crate::error::{Error, Result};
+use crate::mesh::Working;
+use crate::options::Options;
+use crate::partition::{Labels, Regions, UNLABELLED, components, hand_out};
+
+/// Rounds without a new least energy after which the loop only wanders around its best partition.
+const PATIENCE: usize = 10;
+
+/// What the loop ends with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Region of every face; every region is connected and has at least one.
+    pub labels: Labels,
+    /// The surface of every region, its gradient on the side of the region's normals.
+    pub proxies: Vec<Proxy>,
+    /// Total error (eq. 1) of the adjusted start, then after every round. The labels are those of
+    /// the least of them.
+    pub energy: Vec<f64>,
+}
+
+/// What stays the same during a run.
+struct Task<'a> {
+    working: &'a Working,
+    options: &'a Options,
+}
+
+impl Task<'_> {
+    /// `E(t, P)` of eq. 2.
+    fn error(&self, proxy: &Proxy, face: u32) -> f64 {
+        let (face, geometry) = (face as usize, &self.working.geometry);
+        let corners = self.working.mesh.corners(face);
+        proxy.error(corners, geometry.normals[face], geometry.areas[face], self.options.beta)
+    }
+
+    fn total_error(&self, proxy: &Proxy, faces: &[u32]) -> f64 {
+        faces.iter().map(|&face| self.error(proxy, face)).sum()
+    }
+}
+
+/// A partition with its proxies.
+#[derive(Clone)]
+struct State {
+    labels: Labels,
+    regions: Vec<Fitted>,
+}
+
+impl State {
+    fn energy(&self) -> f64 {
+        self.regions.iter().map(|region| region.error).sum()
+    }
+}
+
+/// Optimises a partition of a mesh in the unit cube.
+///
+/// `start` has a label for every face; unlabelled ones are handed out, and what is not connected
+/// counts as several regions. With `options.regions` exactly so many come out, or as many as
+/// the mesh has components where that is more, or faces where that is less.
+///
+/// # Errors
+/// [`Error::Option`] if there is not one label a face, [`Error::Cancelled`] if the listener says so.
+pub fn paper(
+    context: &mut Context,
+    working: &Working,
+    options: &Options,
+    start: &[u32],
+) -> Result<Outcome> {
+    if working.is_empty() {
+        return Err(Error::Empty);
+    }
+    let task = Task { working, options };
+    let labels = connected(working, start)?;
+    let regions = fit_all(&task, faces_of(&labels), &[]);
+    let state = adjust(context, &task, State { labels, regions })?;
+    lloyd(context, &task, state)
+}
+
+/// Lloyd's iteration; the best partition seen is the result.
+fn lloyd(context: &mut Context, task: &Task, mut state: State) -> Result<Outcome> {
+    let mut energy = vec![state.energy()];
+    let (mut best, mut best_round) = (state.clone(), 0);
+    let mut seen = HashSet::from([fingerprint(&state.labels)]);
+    for round in 0..task.options.max_iterations {
+        context.step("segment", round as f64 / task.options.max_iterations as f64)?;
+        state = round_of(task, state);
+        energy.push(state.energy());
+        if energy[round + 1] < energy[best_round] {
+            (best, best_round) = (state.clone(), round + 1);
+        }
+        let change = (energy[round + 1] - energy[round]).abs();
+        // A partition that was there before is a fixed point or a cycle: nothing new can come.
+        let known = !seen.insert(fingerprint(&state.labels));
+        if known
+            || round + 1 - best_round >= PATIENCE
+            || change <= task.options.convergence * energy[round]
+        {
+            break;
+        }
+    }
+    let proxies = best.regions.into_iter().map(|region| region.proxy).collect();
+    Ok(Outcome { labels: best.labels, proxies, energy })
+}
+
+/// Partitioning, then surface fitting.
+fn round_of(task: &Task, state: State) -> State {
+    let State { mut labels, regions } = state;
+    let seeds = seeds::seeds(task, &labels, &regions);
+    labels.fill(UNLABELLED);
+    let numbered = seeds.iter().enumerate().map(|(region, faces)| (region as u32, &faces[..]));
+    flood::flood(task, |region| &regions[region as usize].proxy, numbered, &mut labels);
+    let regions = fit_all(task, faces_of(&labels), &regions);
+    State { labels, regions }
+}
+
+/// Brings the number of regions to the one that is wanted, by merging and insertion.
+fn adjust(context: &mut Context, task: &Task, state: State) -> Result<State> {
+    let State { mut labels, mut regions } = state;
+    if let Some(limit) = task.options.insertion_threshold {
+        while insert::insert(task, &mut labels, &mut regions, limit.max(f64::MIN_POSITIVE)) {
+            context.step("segment", 0.0)?;
+        }
+    }
+    if let Some(wanted) = task.options.regions {
+        let step = || context.step("segment", 0.0);
+        regions = merge::merge(task, &mut labels, regions, wanted, step)?;
+        while regions.len() < wanted && insert::insert(task, &mut labels, &mut regions, 0.0) {
+            context.step("segment", 0.0)?;
+        }
+    }
+    Ok(State { labels, regions })
+}
+
+/// The start as a partition into connected regions, numbered by their first face.
+fn connected(working: &Working, start: &[u32]) -> Result<Labels> {
+    if start.len() != working.len() {
+        let (labels, faces) = (start.len(), working.len());
+        return Err(Error::Option(format!("{labels} initial labels for {faces} faces: one each")));
+    }
+    let mut labels = start.to_vec();
+    hand_out(&mut labels, &working.adjacency, &working.geometry.normals);
+    Ok(components(&labels, &working.adjacency).0)
+}
+
+fn faces_of(labels: &[u32]) -> Vec<Vec<u32>> {
+    Regions::new(labels).iter().map(<[u32]>::to_vec).collect()
+}
+
+fn fingerprint(labels: &[u32]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    labels.hash(&mut hasher);
+    hasher.finish()
+}
+
+#[cfg(test)]
+mod tests;

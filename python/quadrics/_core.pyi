@@ -1,0 +1,99 @@
+from collections.abc import Callable
+from typing import Any, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "__version__",
+    "coefficients",
+    "default_options",
+    "default_scanner",
+    "distance",
+    "inspect",
+    "noise",
+    "normal",
+    "part",
+    "part_names",
+    "project",
+    "read",
+    "render",
+    "scan",
+    "segment",
+    "write",
+    "write_segmentation",
+]
+
+__version__: str
+
+class _Segmentation(TypedDict):
+    labels: NDArray[np.uint32]
+    regions: list[dict[str, Any]]
+    relations: list[dict[str, Any]]
+    noise: tuple[float, float]
+    repairs: list[tuple[str, int, str]]
+    energy: list[float]
+    timing: list[tuple[str, float]]
+
+class _Loaded(TypedDict):
+    positions: NDArray[np.float64]
+    faces: NDArray[np.uint32]
+    parent: NDArray[np.uint32] | None
+    face_count: int
+    units: str | None
+    repairs: list[tuple[str, int, str]]
+
+def read(extension: str, bytes: bytes, open: Callable[[str], bytes | None]) -> _Loaded: ...
+def inspect(positions: NDArray[np.float64], faces: NDArray[np.uint32]) -> dict[str, Any]: ...
+def write(extension: str, positions: NDArray[np.float64], faces: NDArray[np.uint32]) -> bytes: ...
+def write_segmentation(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    labels: NDArray[np.int32],
+    colours: NDArray[np.uint8],
+) -> bytes: ...
+def segment(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    options: dict[str, Any],
+    initial_labels: NDArray[np.uint32] | None = None,
+    progress: Callable[[str, float], object] | None = None,
+) -> _Segmentation: ...
+def part_names() -> list[str]: ...
+def part(name: str, faces: int) -> dict[str, Any]: ...
+def default_scanner() -> dict[str, Any]: ...
+def scan(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    labels: NDArray[np.uint32],
+    surfaces: list[tuple[str, list[float]]],
+    scanner: dict[str, Any],
+    seed: int,
+    progress: Callable[[str, float], object] | None,
+) -> dict[str, Any]: ...
+def noise(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    sigma: float,
+    ratio: float,
+    seed: int,
+) -> NDArray[np.float64]: ...
+def default_options() -> dict[str, Any]: ...
+def distance(
+    kind: str, numbers: list[float], points: NDArray[np.float64]
+) -> NDArray[np.float64]: ...
+def normal(kind: str, numbers: list[float], points: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def project(
+    kind: str, numbers: list[float], points: NDArray[np.float64]
+) -> NDArray[np.float64]: ...
+def coefficients(kind: str, numbers: list[float]) -> list[float] | None: ...
+def render(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    colours: NDArray[np.uint8],
+    normals: NDArray[np.float64],
+    labels: NDArray[np.int32],
+    toward_eye: tuple[float, float, float],
+    width: int,
+    height: int,
+) -> NDArray[np.uint8]: ...
