@@ -4,6 +4,7 @@
 //! samples: `n mean(min(d²/σ², cap)) + 2 cost(type) ln n`. Costs are not parameter counts: bands
 //! around an axis fit spheres as well as cones, so a sphere must cost more than its four parameters.
 
+use super::kind::{Class, kind};
 use super::start::{self, Samples};
 use super::{Shape, Surface, refine_within};
 use crate::math::{Point, Vector};
@@ -138,6 +139,7 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
         && let Some(quadric) = start::quadric(samples)
         && let Some(fit) = refine_within(&quadric, samples.points, &[], FINAL_ITERATIONS)
         && !singular(&fit.surface, samples.points)
+        && curved(&fit.surface)
     {
         let choice = judge(fit.surface, samples, vertices, evidence);
         if choice.misfit < QUADRIC_GAIN * simple {
@@ -155,6 +157,12 @@ const QUADRIC_GAIN: f64 = 0.8;
 fn insert(choices: &mut Vec<Choice>, choice: Choice) {
     let at = choices.partition_point(|known| known.criterion <= choice.criterion);
     choices.insert(at, choice);
+}
+
+/// Whether a quadric is one of the curved classes and not two planes.
+fn curved(surface: &Surface) -> bool {
+    let Surface::Quadric(quadric) = surface else { return false };
+    !matches!(kind(quadric, 1.0).class, Class::Plane | Class::Other)
 }
 
 /// Whether the gradient vanishes near the points, as it does where two planes meet.
