@@ -1,6 +1,6 @@
 """Time per stage on a generated part: what BENCHMARK.md records.
 
-    python benchmarks/stages.py [FACES] [PART]
+python benchmarks/stages.py [FACES] [PART]
 """
 
 import sys
