@@ -145,7 +145,7 @@ fn by_default(
             surfaces: back.former.iter().map(surface).collect(),
             labels: back.labels,
             evidence: outcome.evidence,
-            energy: Vec::new(),
+            energy: outcome.energy.clone(),
             repairs: Vec::new(),
         })
     })

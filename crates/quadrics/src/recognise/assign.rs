@@ -24,10 +24,8 @@ const NORMAL_CAP: f64 = 6.0;
 const FREE_FORM: f64 = 8.0;
 /// Cost of a mean edge between two regions: smooth boundaries under independent noise; on scans,
 /// whose edges are a triangle wide, little.
-const SMOOTHNESS: f64 = 1.0;
+const SMOOTHNESS: f64 = 2.0;
 const SMOOTHNESS_SCAN: f64 = 0.3;
-/// No face counts for more when partitions are compared: an outlier is an outlier.
-pub const WORST: f64 = 12.0;
 /// A face is worth asking when the new surface is at most so much worse than its own.
 const SLACK: f64 = 4.0;
 
@@ -184,13 +182,13 @@ fn expand_one(
 /// Fewest faces of a piece that a cut left apart from its region and that stands on its own.
 const PIECE: u32 = 40;
 /// Pieces of a region this many faces apart are joined again: narrow bands tear at a single face.
-const GAP: usize = 4;
+const GAP: usize = 8;
 /// Most rounds of mending; two bands that tear each other would never end.
 const MENDS: usize = 5;
 /// Pieces of fewer faces are not worth a bridge.
 const CRUMB: u32 = 4;
 /// What a face may cost on a surface to become a bridge between two pieces of its region.
-const BRIDGE: f64 = 20.0;
+const BRIDGE: f64 = 50.0;
 
 /// Makes every region connected: torn bands are mended, large pieces become regions on the same
 /// surface, crumbs join a neighbour.

@@ -7,15 +7,13 @@ use crate::context::Context;
 use crate::error::Result;
 use crate::partition::UNLABELLED;
 use crate::surface::select::{self, Choice};
-use crate::surface::{Shape, Surface};
+use crate::surface::{Shape, Surface, refine_within};
 
 /// Neighbourhood sizes in faces. A fit needs about a dozen vertices to mean anything, and a large
 /// neighbourhood is worth trying only where the smaller one was one surface.
 const BALLS: [usize; 5] = [14, 30, 70, 180, 450];
 /// Neighbourhoods of fewer faces may be too small for the surface they lie on.
 const SHOWS: usize = 70;
-/// A face that is out of play.
-pub const TAKEN: u32 = UNLABELLED - 1;
 /// Seeds that compete for being accepted first.
 const BATCH: usize = 12;
 /// Adjacent faces whose normals differ more are not in one neighbourhood, in radians.
@@ -30,6 +28,7 @@ const FEWEST: usize = 10;
 const REFITS: usize = 8;
 
 /// A surface and the connected faces that it explains.
+#[derive(Clone)]
 pub struct Candidate {
     /// The surface and how well it fits.
     pub choice: Choice,
@@ -37,6 +36,14 @@ pub struct Candidate {
     pub faces: Vec<u32>,
     /// +1 where the mesh's normals agree with the surface's, else -1.
     pub side: f64,
+}
+
+impl Candidate {
+    /// Faces explained for the price of the surface: a torus over several ring bands is worth less
+    /// than the largest of them.
+    fn worth(&self) -> f64 {
+        self.faces.len() as f64 / select::cost(&self.choice.surface)
+    }
 }
 
 /// Scratch sets that are made once.
@@ -56,22 +63,6 @@ pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Resul
     let all: Vec<u32> = (0..labels.len() as u32).collect();
     let mut dead = vec![false; labels.len()];
     cover(context, scene, labels, &all, &BALLS, &mut dead)
-}
-
-/// The same within some unlabelled faces, with small neighbourhoods only: what hides inside a region.
-///
-/// # Errors
-/// Cancellation.
-pub fn detect_within(
-    context: &mut Context,
-    scene: &Scene,
-    labels: &mut [u32],
-    faces: &[u32],
-    dead: &mut [bool],
-) -> Result<Vec<Candidate>> {
-    let found = cover(context, scene, labels, faces, &BALLS[..2], dead);
-    faces.iter().for_each(|&f| dead[f as usize] = false);
-    found
 }
 
 fn cover(
@@ -100,7 +91,7 @@ fn cover(
                 _ => bury(scene, seed, dead),
             }
         }
-        batch.sort_by_key(|c| std::cmp::Reverse(c.faces.len()));
+        batch.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
         for mut candidate in batch {
             let before = candidate.faces.len();
             candidate.faces.retain(|&f| labels[f as usize] == UNLABELLED);
@@ -136,20 +127,33 @@ fn propose_from(
     balls: &[usize],
     work: &mut Workspace,
 ) -> Option<Candidate> {
-    let mut best: Option<Candidate> = None;
+    // For every type the largest neighbourhood that it explains.
+    let mut starts: Vec<Candidate> = Vec::new();
     for &size in balls {
         let ball = neighbourhood(scene, seed, size, labels, &mut work.faces);
-        if ball.len() * 2 < size && best.is_some() {
+        if ball.len() * 2 < size && !starts.is_empty() {
             break;
         }
-        let Some(choice) = fit(scene, &ball, work).filter(|c| adequate(c, ball.len())) else {
+        let choices = fit(scene, &ball, work);
+        let fitting: Vec<Choice> =
+            choices.into_iter().filter(|c| adequate(c, ball.len())).collect();
+        if fitting.is_empty() {
             // A general quadric does not show before there are more vertices than coefficients.
-            if best.is_none() && size < SHOWS { continue } else { break }
-        };
-        let side = side_of(scene, &choice.surface, &ball);
-        best = Some(Candidate { choice, faces: ball, side });
+            if starts.is_empty() && size < SHOWS { continue } else { break }
+        }
+        // The best comes last: it is the one that may change its type while it grows.
+        for choice in fitting.into_iter().rev() {
+            let kind = std::mem::discriminant(&choice.surface);
+            starts.retain(|s| std::mem::discriminant(&s.choice.surface) != kind);
+            let side = side_of(scene, &choice.surface, &ball);
+            starts.push(Candidate { choice, faces: ball.clone(), side });
+        }
     }
-    grow(scene, best?, labels, work)
+    let free = starts.last().cloned();
+    let locked = starts.into_iter().filter_map(|start| grow(scene, start, true, labels, work));
+    let mut grown: Vec<Candidate> = locked.collect();
+    grown.extend(free.and_then(|start| grow(scene, start, false, labels, work)));
+    grown.into_iter().max_by(|a, b| a.worth().total_cmp(&b.worth()))
 }
 
 /// Breadth first over faces that nothing explains, not across creases.
@@ -180,11 +184,21 @@ fn neighbourhood(
     ball
 }
 
-fn fit(scene: &Scene, faces: &[u32], work: &mut Workspace) -> Option<Choice> {
+fn fit(scene: &Scene, faces: &[u32], work: &mut Workspace) -> Vec<Choice> {
     let gathered = scene.samples(faces, SAMPLES, &mut work.vertices);
-    let choices = select::choose(gathered.samples(), gathered.total, scene.evidence);
-    choices.into_iter().next()
+    select::choose(gathered.samples(), gathered.total, scene.evidence)
 }
+
+/// The same type, fitted to the candidate's faces.
+fn fit_again(scene: &Scene, candidate: &Candidate, work: &mut Workspace) -> Option<Choice> {
+    let gathered = scene.samples(&candidate.faces, SAMPLES, &mut work.vertices);
+    let fit = refine_within(&candidate.choice.surface, &gathered.points, &[], AGAIN)?;
+    let choice = select::judge(fit.surface, gathered.samples(), gathered.total, scene.evidence);
+    adequate(&choice, candidate.faces.len()).then_some(choice)
+}
+
+/// Iterations of a fit that starts from a fit to fewer faces.
+const AGAIN: usize = 4;
 
 /// Whether nothing but noise is left: the mean square of `n` residuals scatters by `sqrt(2/n)`.
 fn adequate(choice: &Choice, faces: usize) -> bool {
@@ -210,6 +224,7 @@ pub fn side_of(scene: &Scene, surface: &Surface, faces: &[u32]) -> f64 {
 fn grow(
     scene: &Scene,
     start: Candidate,
+    keep_type: bool,
     labels: &[u32],
     work: &mut Workspace,
 ) -> Option<Candidate> {
@@ -225,7 +240,12 @@ fn grow(
         current.faces = faces;
         if !(0.97..1.03).contains(&grown) && !shrunk {
             fitted = current.faces.len();
-            let Some(choice) = fit(scene, &current.faces, work) else { break };
+            let choice = if keep_type {
+                fit_again(scene, &current, work)
+            } else {
+                fit(scene, &current.faces, work).into_iter().next()
+            };
+            let Some(choice) = choice else { break };
             current.side = side_of(scene, &choice.surface, &current.faces);
             current.choice = choice;
         } else {

@@ -1,19 +1,20 @@
 //! `preset="default"`: the surfaces of a part, whatever its noise, with nothing to tune.
 
 pub mod assign;
+pub mod count;
 mod cut;
 pub mod detect;
 pub mod evidence;
+pub mod merge;
 pub mod moves;
 pub mod scene;
-pub mod split;
 
 use crate::context::Context;
 use crate::error::Result;
 use crate::math::{Point, Vector};
 use crate::mesh::Mesh;
 use crate::options::Options;
-use crate::partition::{Labels, UNLABELLED, components};
+use crate::partition::{Labels, UNLABELLED, components, region_count};
 use crate::surface::select::Evidence;
 use crate::surface::{Plane, Surface};
 use assign::Model;
@@ -27,6 +28,8 @@ pub struct Outcome {
     pub surfaces: Vec<Surface>,
     /// Noise, in the unit of the mesh.
     pub evidence: Evidence,
+    /// Mean cost of a face after every round, in nats.
+    pub energy: Vec<f64>,
 }
 
 /// Recognises the surfaces of a mesh that lies in the unit cube.
@@ -36,33 +39,23 @@ pub struct Outcome {
 pub fn recognise(
     context: &mut Context,
     mesh: &Mesh,
-    _options: &Options,
+    options: &Options,
     initial_labels: Option<&[u32]>,
 ) -> Result<Outcome> {
     let mut scene = context.timed("prepare", |_| Ok(Scene::new(mesh)))?;
     context.timed("noise", |context| evidence::measure(context, &mut scene))?;
     let (mut labels, mut models) = match initial_labels {
-        Some(labels) => (labels.to_vec(), Vec::new()),
+        Some(labels) => given(&scene, labels),
         None => context.timed("detect", |context| start(context, &scene))?,
     };
-    if initial_labels.is_some() {
-        let count = crate::partition::region_count(&labels);
-        let unknown = Plane::through(Point::origin(), Vector::z_axis());
-        models = vec![Model { surface: Surface::Plane(unknown), side: 1.0 }; count];
-        moves::fit(&scene, &mut models, &labels);
-    }
-    for round in 0..(crate::surface::select::env("ROUNDS", ROUNDS as f64) as usize) {
+    let mut energies: Vec<f64> = Vec::new();
+    for round in 0..ROUNDS {
         context.step("optimise", round as f64 / ROUNDS as f64)?;
         context.timed("assign", |_| {
             assign::expand(&scene, &models, &mut labels);
             assign::connect(&scene, &mut models, &mut labels);
-            Ok(())
-        })?;
-        context.timed("moves", |_| {
             moves::tidy(&mut models, &mut labels);
-            if std::env::var("NODROP").is_err() {
-                moves::drop_needless(&scene, &models, &mut labels);
-            }
+            moves::drop_needless(&scene, &models, &mut labels);
             moves::tidy(&mut models, &mut labels);
             Ok(())
         })?;
@@ -70,21 +63,43 @@ pub fn recognise(
             moves::fit(&scene, &mut models, &labels);
             Ok(())
         })?;
-        if round + 1 < ROUNDS && std::env::var("NOSPLIT").is_err() {
-            context.timed("split", |context| {
-                split::split(context, &scene, &mut models, &mut labels)
-            })?;
-            assign::connect(&scene, &mut models, &mut labels);
+        context
+            .timed("merge", |context| merge::merge(context, &scene, &mut models, &mut labels))?;
+        energies.push(energy(&scene, &models, &labels));
+        if let [.., before, now] = energies[..]
+            && (before - now).abs() <= CONVERGED * before
+        {
+            break;
         }
-        context.timed("merge", |_| {
-            if std::env::var("NOMERGE").is_err() {
-                moves::merge(&scene, &mut models, &mut labels);
-            }
-            Ok(())
+    }
+    if let Some(goal) = options.regions {
+        context.timed("count", |context| {
+            count::reach(context, &scene, &mut models, &mut labels, goal)
         })?;
     }
     let surfaces = models.into_iter().map(|m| m.surface).collect();
-    Ok(Outcome { labels, surfaces, evidence: scene.evidence })
+    Ok(Outcome { labels, surfaces, evidence: scene.evidence, energy: energies })
+}
+
+/// The loop ends when the energy changes by less than this fraction.
+const CONVERGED: f64 = 1e-3;
+
+/// Area-weighted mean of what the faces cost, in nats.
+fn energy(scene: &Scene, models: &[Model], labels: &[u32]) -> f64 {
+    let cost = |(face, &label): (usize, &u32)| {
+        scene.geometry.areas[face] * assign::face_cost(scene, &models[label as usize], face)
+    };
+    let total = scene.geometry.areas.iter().sum::<f64>();
+    labels.iter().enumerate().map(cost).sum::<f64>() / total
+}
+
+/// The user's labels, each with the surface that fits it.
+fn given(scene: &Scene, labels: &[u32]) -> (Labels, Vec<Model>) {
+    let unknown = Plane::through(Point::origin(), Vector::z_axis());
+    let model = Model { surface: Surface::Plane(unknown), side: 1.0 };
+    let mut models = vec![model; region_count(labels)];
+    moves::fit(scene, &mut models, labels);
+    (labels.to_vec(), models)
 }
 
 /// Rounds of the loop.

@@ -1,5 +1,4 @@
-//! Moves between partitions: fit again, drop a region that its neighbours explain, merge two that
-//! one surface explains. Each lowers the same criterion.
+//! Moves between partitions: fit again, drop a region that its neighbours explain.
 
 use rayon::prelude::*;
 
@@ -7,16 +6,14 @@ use super::assign::{Model, face_cost};
 use super::detect::side_of;
 use super::scene::{Marks, Scene};
 use crate::mesh::NONE;
-use crate::partition::{Regions, UNLABELLED, compact};
+use crate::partition::{Regions, compact};
 use crate::surface::Surface;
 use crate::surface::select::{self, Choice, Evidence};
 
 /// What one more region costs besides its surface: its boundary and its label.
-pub const LABEL: f64 = 10.0;
+pub(super) const LABEL: f64 = 10.0;
 /// Vertices that a fit looks at.
-const SAMPLES: usize = 200;
-/// Regions whose normals differ more across their border, on the mean, are not one surface.
-const SMOOTH_DEG: f64 = 25.0;
+pub(super) const SAMPLES: usize = 200;
 
 /// Chooses the surface of every region anew.
 pub fn fit(scene: &Scene, models: &mut [Model], labels: &[u32]) {
@@ -43,7 +40,13 @@ fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
     }
 }
 
-fn choose(scene: &Scene, faces: &[u32], evidence: Evidence, marks: &mut Marks) -> Option<Choice> {
+/// The best surface for some faces.
+pub(super) fn choose(
+    scene: &Scene,
+    faces: &[u32],
+    evidence: Evidence,
+    marks: &mut Marks,
+) -> Option<Choice> {
     let gathered = scene.samples(faces, SAMPLES, marks);
     select::choose(gathered.samples(), gathered.total, evidence).into_iter().next()
 }
@@ -106,8 +109,7 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
             continue;
         }
         let vertices = (faces.len() as f64 / 2.0).max(2.0);
-        let price = select::env("LAB", LABEL)
-            + select::env("PEN", 2.0) * select::cost(&models[id].surface) * vertices.ln() / 2.0;
+        let price = LABEL + 2.0 * select::cost(&models[id].surface) * vertices.ln() / 2.0;
         let mut gain = price;
         let mut moved: Vec<u32> = Vec::with_capacity(faces.len());
         for &face in faces {
@@ -128,65 +130,4 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
         }
     }
     dropped
-}
-
-/// Merges pairs that one surface explains, best gain first, until none is left or `goal` regions
-/// remain; how many went.
-pub fn merge(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) -> usize {
-    let evidence = merging(scene.evidence);
-    let mut merged = 0;
-    loop {
-        let regions = Regions::new(labels);
-        let own: Vec<f64> = (0..regions.len())
-            .into_par_iter()
-            .map_init(Marks::default, |marks, id| {
-                let gathered = scene.samples(regions.faces(id), SAMPLES, marks);
-                let surface = models[id].surface.clone();
-                select::judge(surface, gathered.samples(), gathered.total, evidence).criterion
-            })
-            .collect();
-        let smooth = 2.0 - 2.0 * SMOOTH_DEG.to_radians().cos();
-        let mut gains: Vec<(f64, u32, u32, Choice)> = borders(scene, labels)
-            .into_par_iter()
-            .filter(|&(_, _, turn)| turn < smooth)
-            .map_init(Marks::default, |marks, (a, b, _)| {
-                let faces = [regions.faces(a as usize), regions.faces(b as usize)].concat();
-                let choice = choose(scene, &faces, evidence, marks)?;
-                let gain = own[a as usize] + own[b as usize] + 2.0 * select::env("LAB", LABEL)
-                    - choice.criterion;
-                (gain > 0.0).then_some((gain, a, b, choice))
-            })
-            .flatten()
-            .collect();
-        gains.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-        // Pairs that share a region wait for the next round.
-        let mut busy = vec![false; regions.len()];
-        let mut into: Vec<u32> = (0..regions.len() as u32).collect();
-        let mut now = 0;
-        for (_, a, b, choice) in gains {
-            if !busy[a as usize] && !busy[b as usize] {
-                busy[a as usize] = true;
-                busy[b as usize] = true;
-                into[b as usize] = a;
-                let faces = [regions.faces(a as usize), regions.faces(b as usize)].concat();
-                models[a as usize] = Model {
-                    side: side_of(scene, &choice.surface, &faces),
-                    surface: choice.surface,
-                };
-                now += 1;
-            }
-        }
-        if now == 0 {
-            return merged;
-        }
-        merged += now;
-        labels.iter_mut().filter(|l| **l != UNLABELLED).for_each(|l| *l = into[*l as usize]);
-        tidy(models, labels);
-    }
-}
-
-/// Merging discounts correlated samples less than the choice of types does: a misfit that is too
-/// large to be noise counts, however few samples are independent.
-fn merging(evidence: Evidence) -> Evidence {
-    Evidence { independent: evidence.independent.sqrt(), ..evidence }
 }

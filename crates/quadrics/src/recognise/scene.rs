@@ -22,11 +22,9 @@ pub struct Scene<'a> {
     pub edge: f64,
 }
 
-/// Rounding of the input's coordinates, in sizes: no sigma is smaller.
-pub const ROUNDING: f64 = 2e-6;
-/// Weight of a filtered normal beside a vertex: neighbouring normals were averaged together, so few
-/// of them are independent.
-const NORMAL_WEIGHT: f64 = 0.3;
+/// Rounding of the input's coordinates, in sizes: no sigma is smaller. Files carry five to seven
+/// digits.
+pub const ROUNDING: f64 = 1e-5;
 /// Normal noise below which nothing is filtered, in radians.
 const QUIET: f64 = 0.03;
 /// Least standard deviation of normals: facets of a curved surface are not tangent to it.
@@ -51,13 +49,7 @@ impl<'a> Scene<'a> {
             let reach = 0.2 + 0.55 * raw;
             (normals::filter(&geometry, &rings, rounds, reach), NORMAL_FLOOR + 0.2 * raw)
         };
-        let evidence = Evidence {
-            sigma,
-            independent: 1.0,
-            normal_sigma,
-            normal_weight: std::env::var("NW").map_or(NORMAL_WEIGHT, |v| v.parse().unwrap()),
-            general: true,
-        };
+        let evidence = Evidence { sigma, independent: 1.0, normal_sigma, general: true };
         Self { mesh, geometry, adjacency, normals: filtered, evidence, edge }
     }
 

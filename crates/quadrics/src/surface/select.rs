@@ -17,8 +17,6 @@ pub struct Evidence {
     pub independent: f64,
     /// Standard deviation of the (filtered) face normals, in radians.
     pub normal_sigma: f64,
-    /// Weight of a normal beside a vertex; 0 where positions alone decide.
-    pub normal_weight: f64,
     /// Whether a general quadric may be chosen.
     pub general: bool,
 }
@@ -62,43 +60,29 @@ pub fn cost(surface: &Surface) -> f64 {
     }
 }
 
-/// Mean capped squared distance in squared sigmas, together with that of the normals.
-pub fn misfit(surface: &Surface, samples: Samples, evidence: Evidence) -> f64 {
-    fn mean<S: Shape>(shape: &S, samples: Samples, evidence: Evidence) -> f64 {
-        let count = samples.points.len().max(1) as f64;
-        let scale = evidence.sigma.powi(-2);
-        let positions =
-            samples.points.iter().map(|&p| (shape.distance(p).powi(2) * scale).min(CAP));
-        let positions = positions.sum::<f64>() / count;
-        if evidence.normal_weight == 0.0 {
-            return positions;
-        }
-        let scale = evidence.normal_sigma.powi(-2);
-        let turns = samples.barycentres.iter().zip(samples.normals).map(|(&p, n)| {
-            // Which side is outside is the region's affair, not the surface's.
-            let cosine = shape.normal(p).map_or(0.0, |m| m.dot(n).abs());
-            ((2.0 - 2.0 * cosine) * scale).min(CAP)
-        });
-        let weight = evidence.normal_weight;
-        (positions + weight * turns.sum::<f64>() / count) / (1.0 + weight)
+/// Mean capped squared distance in squared sigmas.
+pub fn misfit(surface: &Surface, points: &[Point], sigma: f64) -> f64 {
+    fn mean<S: Shape>(shape: &S, points: &[Point], sigma: f64) -> f64 {
+        let scale = sigma.powi(-2);
+        let sum: f64 = points.iter().map(|&p| (shape.distance(p).powi(2) * scale).min(CAP)).sum();
+        sum / points.len().max(1) as f64
     }
     match surface {
-        Surface::Plane(s) => mean(s, samples, evidence),
-        Surface::Sphere(s) => mean(s, samples, evidence),
-        Surface::Cylinder(s) => mean(s, samples, evidence),
-        Surface::Cone(s) => mean(s, samples, evidence),
-        Surface::Torus(s) => mean(s, samples, evidence),
-        Surface::Quadric(s) => mean(s, samples, evidence),
+        Surface::Plane(s) => mean(s, points, sigma),
+        Surface::Sphere(s) => mean(s, points, sigma),
+        Surface::Cylinder(s) => mean(s, points, sigma),
+        Surface::Cone(s) => mean(s, points, sigma),
+        Surface::Torus(s) => mean(s, points, sigma),
+        Surface::Quadric(s) => mean(s, points, sigma),
         Surface::FreeForm => CAP,
     }
 }
 
 /// The criterion of a surface for `vertices` vertices of which `samples` are looked at.
 pub fn judge(surface: Surface, samples: Samples, vertices: usize, evidence: Evidence) -> Choice {
-    let misfit = misfit(&surface, samples, evidence);
+    let misfit = misfit(&surface, samples.points, evidence.sigma);
     let count = (vertices as f64 * evidence.independent).max(2.0);
-    let criterion = count * (1.0 + evidence.normal_weight) * misfit
-        + env("PEN", 2.0) * cost(&surface) * count.ln();
+    let criterion = count * misfit + 2.0 * cost(&surface) * count.ln();
     Choice { surface, misfit, criterion }
 }
 
@@ -116,9 +100,7 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
         choices.first().map_or(f64::INFINITY, |best| best.criterion)
     };
     let count = (vertices as f64 * evidence.independent).max(2.0);
-    let bound = |cost: f64| {
-        count * (1.0 + evidence.normal_weight) * LEAST_MISFIT + env("PEN", 2.0) * cost * count.ln()
-    };
+    let bound = |cost: f64| count * LEAST_MISFIT + 2.0 * cost * count.ln();
     let mut best = f64::INFINITY;
     if let Some(plane) = start::plane(samples) {
         best = consider(&mut choices, plane);
@@ -167,7 +149,7 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
 
 /// A general quadric is asked only where simpler surfaces leave more than noise, and must gain on
 /// the best of them: it fits two planes, and any patch that bends twice.
-const QUADRIC_FROM: f64 = 1.2;
+const QUADRIC_FROM: f64 = 2.0;
 const QUADRIC_GAIN: f64 = 0.8;
 
 fn insert(choices: &mut Vec<Choice>, choice: Choice) {
@@ -214,14 +196,4 @@ fn one_sided(surface: &Surface, samples: Samples) -> bool {
     let cosine = |(p, n): (&Point, &Vector)| surface.normal(*p).map_or(0.0, |m| m.dot(n));
     let sum: f64 = samples.barycentres.iter().zip(samples.normals).map(cosine).sum();
     sum.abs() > ONE_SIDED * samples.points.len() as f64
-}
-
-/// tmp
-pub fn env(name: &str, default: f64) -> f64 {
-    static MAP: std::sync::OnceLock<std::collections::HashMap<String, f64>> =
-        std::sync::OnceLock::new();
-    let map = MAP.get_or_init(|| {
-        std::env::vars().filter_map(|(k, v)| v.parse().ok().map(|v| (k, v))).collect()
-    });
-    map.get(name).copied().unwrap_or(default)
 }

@@ -1,0 +1,160 @@
+//! Merging: two regions that one surface explains become one, best gain first.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::assign::Model;
+use super::detect::side_of;
+use super::moves::{LABEL, SAMPLES, borders, choose, tidy};
+use super::scene::{Marks, Scene};
+use crate::context::Context;
+use crate::error::Result;
+use crate::partition::Regions;
+use crate::surface::select::{self, Choice, Evidence};
+
+/// Regions whose normals differ more across their border, on the mean, are not one surface.
+const SMOOTH_DEG: f64 = 25.0;
+
+/// A pair of adjacent regions and what merging them gains.
+struct Union {
+    gain: f64,
+    choice: Choice,
+}
+
+/// Regions while they merge; a pair is judged once, and again when one of the two has changed.
+struct Merger<'s, 'm> {
+    scene: &'s Scene<'m>,
+    evidence: Evidence,
+    faces: Vec<Vec<u32>>,
+    criteria: Vec<f64>,
+    unions: BTreeMap<(u32, u32), Option<Union>>,
+}
+
+/// Merges while the criterion falls.
+///
+/// # Errors
+/// Cancellation.
+pub fn merge(
+    context: &mut Context,
+    scene: &Scene,
+    models: &mut Vec<Model>,
+    labels: &mut [u32],
+) -> Result<()> {
+    let smooth = 2.0 - 2.0 * SMOOTH_DEG.to_radians().cos();
+    let mut merger = Merger::new(scene, models, labels);
+    loop {
+        context.step("merge", 0.0)?;
+        merger.judge(borders(scene, labels).into_iter().filter(|b| b.2 < smooth));
+        if merger.apply(models, labels, 0.0, usize::MAX) == 0 {
+            break;
+        }
+    }
+    tidy(models, labels);
+    Ok(())
+}
+
+/// Merges the pairs of least increase until `goal` regions are left, or no two touch.
+///
+/// # Errors
+/// Cancellation.
+pub fn merge_down(
+    context: &mut Context,
+    scene: &Scene,
+    models: &mut Vec<Model>,
+    labels: &mut [u32],
+    goal: usize,
+) -> Result<()> {
+    let mut merger = Merger::new(scene, models, labels);
+    let mut count = models.len();
+    while count > goal {
+        context.step("merge", 0.0)?;
+        merger.judge(borders(scene, labels).into_iter());
+        let merged = merger.apply(models, labels, f64::NEG_INFINITY, 1);
+        if merged == 0 {
+            break;
+        }
+        count -= merged;
+    }
+    tidy(models, labels);
+    Ok(())
+}
+
+impl<'s, 'm> Merger<'s, 'm> {
+    fn new(scene: &'s Scene<'m>, models: &[Model], labels: &[u32]) -> Self {
+        let faces: Vec<Vec<u32>> = Regions::new(labels).iter().map(<[u32]>::to_vec).collect();
+        let evidence = merging(scene.evidence);
+        let criteria = faces
+            .par_iter()
+            .zip(models)
+            .map_init(Marks::default, |marks, (faces, model)| {
+                let gathered = scene.samples(faces, SAMPLES, marks);
+                let surface = model.surface.clone();
+                select::judge(surface, gathered.samples(), gathered.total, evidence).criterion
+            })
+            .collect();
+        Self { scene, evidence, faces, criteria, unions: BTreeMap::new() }
+    }
+
+    /// Fits one surface to both regions of every pair that is not known yet.
+    fn judge(&mut self, pairs: impl Iterator<Item = (u32, u32, f64)>) {
+        let unknown: Vec<(u32, u32)> =
+            pairs.map(|(a, b, _)| (a, b)).filter(|pair| !self.unions.contains_key(pair)).collect();
+        let judged: Vec<Option<Union>> = unknown
+            .par_iter()
+            .map_init(Marks::default, |marks, &(a, b)| {
+                let faces = self.joined(a, b);
+                let choice = choose(self.scene, &faces, self.evidence, marks)?;
+                let apart = self.criteria[a as usize] + self.criteria[b as usize];
+                Some(Union { gain: apart + 2.0 * LABEL - choice.criterion, choice })
+            })
+            .collect();
+        self.unions.extend(unknown.into_iter().zip(judged));
+    }
+
+    fn joined(&self, a: u32, b: u32) -> Vec<u32> {
+        [self.faces[a as usize].as_slice(), &self.faces[b as usize]].concat()
+    }
+
+    /// Carries out the best unions above `least`, each region in one at most; how many.
+    fn apply(
+        &mut self,
+        models: &mut [Model],
+        labels: &mut [u32],
+        least: f64,
+        most: usize,
+    ) -> usize {
+        let known = self.unions.iter().filter_map(|(&pair, union)| Some((pair, union.as_ref()?)));
+        let mut best: Vec<((u32, u32), f64)> = known
+            .map(|(pair, union)| (pair, union.gain))
+            .filter(|&(_, gain)| gain > least)
+            .collect();
+        best.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        let mut busy = vec![false; models.len()];
+        let mut merged = 0;
+        for ((a, b), _) in best {
+            if merged == most || busy[a as usize] || busy[b as usize] {
+                continue;
+            }
+            busy[a as usize] = true;
+            busy[b as usize] = true;
+            merged += 1;
+            let Some(Some(union)) = self.unions.remove(&(a, b)) else { continue };
+            let faces = self.joined(a, b);
+            let side = side_of(self.scene, &union.choice.surface, &faces);
+            models[a as usize] = Model { surface: union.choice.surface, side };
+            self.criteria[a as usize] = union.choice.criterion;
+            self.faces[b as usize].iter().for_each(|&f| labels[f as usize] = a);
+            self.faces[a as usize] = faces;
+            self.faces[b as usize].clear();
+        }
+        self.unions.retain(|&(a, b), _| !busy[a as usize] && !busy[b as usize]);
+        merged
+    }
+}
+
+/// Merging discounts correlated samples less than the choice of types does: a misfit that is too
+/// large to be noise counts, however few samples are independent.
+fn merging(evidence: Evidence) -> Evidence {
+    Evidence { independent: evidence.independent.sqrt(), ..evidence }
+}
