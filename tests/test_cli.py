@@ -156,6 +156,16 @@ def test_help_shows_every_command_and_what_it_takes(capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out.startswith("quadrics 0.")
 
 
+def test_an_unknown_option_is_named_with_the_help_of_its_command(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        main(["segment", "part.stl", "-o", "out", "--regios", "5"])
+    assert stopped.value.code == 2
+    shown = capsys.readouterr().err
+    assert shown == "quadrics segment: unknown argument --regios; see `quadrics segment --help`\n"
+
+
 def test_help_loads_nothing_heavy() -> None:
     code = (
         "import sys\nfrom quadrics.cli.main import main\n"

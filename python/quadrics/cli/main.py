@@ -68,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if unknown:
         # The parser on top would send the reader to its own help, which lists no options.
         command = f"quadrics {options.command}" if options.command else "quadrics"
-        top.exit(USAGE, f"{command}: there is no {unknown[0]}; see `{command} --help`\n")
+        top.exit(USAGE, f"{command}: unknown argument {unknown[0]}; see `{command} --help`\n")
     if options.version:
         from quadrics import _core
 
