@@ -156,6 +156,16 @@ def test_help_shows_every_command_and_what_it_takes(capsys: pytest.CaptureFixtur
     assert capsys.readouterr().out.startswith("quadrics 0.")
 
 
+def test_an_unknown_option_is_named_with_the_help_of_its_command(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        main(["segment", "part.stl", "-o", "out", "--regios", "5"])
+    assert stopped.value.code == 2
+    shown = capsys.readouterr().err
+    assert shown == "quadrics segment: unknown argument --regios; see `quadrics segment --help`\n"
+
+
 def test_help_loads_nothing_heavy() -> None:
     code = (
         "import sys\nfrom quadrics.cli.main import main\n"
@@ -174,11 +184,18 @@ def test_a_reader_that_stops_early_is_no_error(part: Path) -> None:
     assert (done.returncode, done.stderr) == (0, "")
 
 
+def heed_ctrl_c() -> None:
+    # A shell lets its background jobs ignore Ctrl-C, and children inherit that.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_ctrl_c_ends_within_a_second_and_leaves_nothing(tmp_path: Path) -> None:
     # Large enough to be still at work when the signal comes.
     (tmp_path / "big.stl").write_bytes(meshes.stl(*meshes.rod(1200, 400)))
     command = [sys.executable, "-m", "quadrics", "segment", "big.stl", "-o", "out"]
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, preexec_fn=heed_ctrl_c
+    )
     time.sleep(2.5)
     assert process.poll() is None, "the run was over before it could be interrupted"
     process.send_signal(signal.SIGINT)

@@ -64,7 +64,11 @@ def parser() -> Parser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     top = parser()
-    options = top.parse_args(arguments)
+    options, unknown = top.parse_known_args(arguments)
+    if unknown:
+        # The parser on top would send the reader to its own help, which lists no options.
+        command = f"quadrics {options.command}" if options.command else "quadrics"
+        top.exit(USAGE, f"{command}: unknown argument {unknown[0]}; see `{command} --help`\n")
     if options.version:
         from quadrics import _core
 
