@@ -269,3 +269,22 @@ fn meshes_that_are_hardly_any_get_a_sensible_answer() {
         quadrics::segment(&mut Context::new(0), &Mesh::default(), &Options::default(), None);
     assert_eq!(nothing, Err(Error::Empty));
 }
+
+#[test]
+fn crumbs_that_touch_nothing_are_regions_of_their_own() {
+    let mut mesh = part("plate").mesh;
+    for i in 0..3 {
+        let first = mesh.positions.len() as u32;
+        let at = 2.0 + f64::from(i);
+        mesh.positions.extend([
+            Point::new(at, 0.0, 0.0),
+            Point::new(at, 0.1, 0.0),
+            Point::new(at, 0.0, 0.1),
+        ]);
+        mesh.faces.push([first, first + 1, first + 2]);
+    }
+    let result = run(&mesh, &Options::default());
+    check_partition(&mesh, &result);
+    let labels = &result.labels[mesh.faces.len() - 3..];
+    assert!(labels[0] != labels[1] && labels[1] != labels[2] && labels[0] != labels[2]);
+}

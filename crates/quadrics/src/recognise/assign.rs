@@ -215,6 +215,24 @@ pub fn connect(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
         labels[face] = own[piece];
     }
     flood(scene, models, labels);
+    name_the_rest(scene, models, labels);
+}
+
+/// A part of the mesh that touches no region becomes one, free-form, that nobody has to explain.
+pub fn name_the_rest(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
+    if !labels.contains(&UNLABELLED) {
+        return;
+    }
+    let (component, sizes) = components(labels, &scene.adjacency);
+    let mut own: Vec<u32> = vec![UNLABELLED; sizes.len()];
+    for face in (0..labels.len()).filter(|&f| labels[f] == UNLABELLED).collect::<Vec<_>>() {
+        let name = &mut own[component[face] as usize];
+        if *name == UNLABELLED {
+            *name = models.len() as u32;
+            models.push(Model { surface: Surface::FreeForm, side: 1.0 });
+        }
+        labels[face] = *name;
+    }
 }
 
 /// The component that is the largest of each label.

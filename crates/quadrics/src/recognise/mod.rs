@@ -126,11 +126,6 @@ fn start(context: &mut Context, scene: &Scene) -> Result<(Labels, Vec<Model>)> {
         }
     }
     assign::flood(scene, &models, &mut labels);
-    // A component of the mesh without any surface.
-    if labels.contains(&UNLABELLED) {
-        let rest = models.len() as u32;
-        models.push(Model { surface: Surface::FreeForm, side: 1.0 });
-        labels.iter_mut().filter(|l| **l == UNLABELLED).for_each(|l| *l = rest);
-    }
+    assign::name_the_rest(scene, &mut models, &mut labels);
     Ok((labels, models))
 }
