@@ -60,22 +60,10 @@ pub struct Workspace {
 /// # Errors
 /// Cancellation.
 pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Result<Vec<Candidate>> {
-    let all: Vec<u32> = (0..labels.len() as u32).collect();
-    let mut dead = vec![false; labels.len()];
-    cover(context, scene, labels, &all, &BALLS, &mut dead)
-}
-
-fn cover(
-    context: &mut Context,
-    scene: &Scene,
-    labels: &mut [u32],
-    faces: &[u32],
-    balls: &[usize],
-    dead: &mut [bool],
-) -> Result<Vec<Candidate>> {
     let mut found: Vec<Candidate> = Vec::new();
     let mut work = Workspace::default();
-    let mut open: Vec<u32> = faces.to_vec();
+    let mut open: Vec<u32> = (0..labels.len() as u32).collect();
+    let mut dead = vec![false; labels.len()];
     let total = open.len().max(1) as f64;
     loop {
         open.retain(|&f| labels[f as usize] == UNLABELLED && !dead[f as usize]);
@@ -86,9 +74,9 @@ fn cover(
         let mut batch = Vec::new();
         for _ in 0..BATCH {
             let seed = open[context.rng.random_range(0..open.len())];
-            match propose_from(scene, seed, labels, balls, &mut work) {
+            match propose(scene, seed, labels, &mut work) {
                 Some(candidate) if candidate.faces.len() >= FEWEST => batch.push(candidate),
-                _ => bury(scene, seed, dead),
+                _ => bury(scene, seed, &mut dead),
             }
         }
         batch.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
@@ -110,26 +98,16 @@ fn bury(scene: &Scene, seed: u32, dead: &mut [bool]) {
     scene.adjacency.across(seed as usize).for_each(|f| dead[f] = true);
 }
 
-/// The largest neighbourhood of a seed that is one surface, grown.
+/// What grows from the neighbourhoods of a seed, the worthiest of all types.
 pub fn propose(
     scene: &Scene,
     seed: u32,
     labels: &[u32],
     work: &mut Workspace,
 ) -> Option<Candidate> {
-    propose_from(scene, seed, labels, &BALLS, work)
-}
-
-fn propose_from(
-    scene: &Scene,
-    seed: u32,
-    labels: &[u32],
-    balls: &[usize],
-    work: &mut Workspace,
-) -> Option<Candidate> {
     // For every type the largest neighbourhood that it explains.
     let mut starts: Vec<Candidate> = Vec::new();
-    for &size in balls {
+    for size in BALLS {
         let ball = neighbourhood(scene, seed, size, labels, &mut work.faces);
         if ball.len() * 2 < size && !starts.is_empty() {
             break;
