@@ -76,9 +76,11 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
     coarsen(context, scene)
 }
 
-/// Seeds that are asked whether a scale explains the mesh, and the least share that must be.
+/// Seeds that are asked whether a scale explains the mesh, and the least share that must be: less
+/// where the mesh is exact, as what is left then are small surfaces.
 const ASKED: usize = 64;
 const EXPLAINED: f64 = 0.8;
+const EXPLAINED_SCAN: f64 = 0.9;
 /// How much coarser the next scale is, and the coarsest, in sizes: beyond it all evidence is noise.
 const COARSER: f64 = 3.0;
 const COARSEST: f64 = 1e-3;
@@ -89,11 +91,12 @@ const COARSEST: f64 = 1e-3;
 /// they were made from, or by what a remesher rounded; the planes alone say that there is no noise.
 /// The first scale that explains the mesh barely does: the next one is taken.
 fn coarsen(context: &mut Context, scene: &mut Scene) -> Result<()> {
+    let share = if scene.correlated() { EXPLAINED_SCAN } else { EXPLAINED };
     let mut raised = false;
     let mut explained = false;
     while !explained && scene.evidence.sigma < COARSEST {
         context.step("noise", 1.0)?;
-        explained = probe(context, scene, ASKED).len() as f64 >= EXPLAINED * ASKED as f64;
+        explained = probe(context, scene, ASKED).len() as f64 >= share * ASKED as f64;
         if explained && !raised {
             return Ok(());
         }
