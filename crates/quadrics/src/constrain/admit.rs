@@ -25,6 +25,8 @@ pub struct Candidate {
     pub equation: Equation,
     /// Range of its value if it does not hold.
     pub range: f64,
+    /// Log odds before anything is measured, over those of any relation.
+    pub before: f64,
 }
 
 /// Judges candidates, the surest first, each in the light of those accepted before: a Gaussian
@@ -46,7 +48,7 @@ pub fn admit(system: &System, solution: &Solution, candidates: &[Candidate]) -> 
         for (i, row) in rows.iter().enumerate().filter(|(i, _)| verdicts[*i].is_none()) {
             let value = row.value + row.row.dot(&shift);
             let variance = row.row.dot(&(&covariance * &row.row)).max(f64::MIN_POSITIVE);
-            if let Some(odds) = gate::log_odds_of(value, variance, row.range)
+            if let Some(odds) = gate::log_odds_of(value, variance, row.range, row.before)
                 && best.is_none_or(|(known, ..)| odds > known)
             {
                 best = Some((odds, i, value * value / variance));
@@ -77,6 +79,7 @@ struct Row {
     row: DVector<f64>,
     value: f64,
     range: f64,
+    before: f64,
 }
 
 impl Row {
@@ -94,7 +97,7 @@ impl Row {
         }
         let length = row.norm().max(f64::MIN_POSITIVE);
         let value = candidate.equation.value(system, &solution.state) / length;
-        Self { row: row / length, value, range: candidate.range / length }
+        Self { row: row / length, value, range: candidate.range / length, before: candidate.before }
     }
 }
 

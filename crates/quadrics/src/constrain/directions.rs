@@ -11,6 +11,7 @@ use crate::surface::Condensed;
 struct Bearing {
     direction: Unit,
     covariance: Matrix3<f64>,
+    count: usize,
 }
 
 /// Solid angle of all directions, signs aside.
@@ -37,7 +38,7 @@ impl Estimate for Bearing {
             return None;
         }
         let (g, one, two, _) = self.seen(other);
-        gate::log_odds(&g, &(one + two), HEMISPHERE)
+        gate::log_odds(&g, &(one + two), HEMISPHERE, gate::joining(self.count, other.count))
     }
 
     fn fused(&self, other: &Self) -> Self {
@@ -47,7 +48,11 @@ impl Estimate for Bearing {
         let left = one - one * total * one;
         let tip = self.direction.into_inner() + u.into_inner() * shift.x + v.into_inner() * shift.y;
         let across = nalgebra::Matrix3x2::from_columns(&[u.into_inner(), v.into_inner()]);
-        Self { direction: Unit::new_normalize(tip), covariance: across * left * across.transpose() }
+        Self {
+            direction: Unit::new_normalize(tip),
+            covariance: across * left * across.transpose(),
+            count: self.count + other.count,
+        }
     }
 }
 
@@ -58,7 +63,7 @@ pub fn parallel(items: &[Condensed]) -> (Vec<usize>, Vec<Unit>) {
         .enumerate()
         .filter_map(|(i, item)| {
             let (direction, covariance) = item.direction()?;
-            Some((i, Bearing { direction, covariance }))
+            Some((i, Bearing { direction, covariance, count: 1 }))
         })
         .collect();
     let (at, bearings): (Vec<usize>, Vec<Bearing>) = known.into_iter().unzip();

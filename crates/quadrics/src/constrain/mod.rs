@@ -16,7 +16,7 @@ mod solve;
 mod system;
 
 use crate::math::Unit;
-use crate::surface::{Condensed, Surface};
+use crate::surface::{Condensed, Surface, direction};
 use admit::{Candidate, Verdict, admit};
 use equation::Equation;
 use places::View;
@@ -90,9 +90,20 @@ impl<'a> Work<'a> {
         self.directions = directions;
         let Some((system, solution)) = self.solve(&self.classes, &self.directions) else { return };
         let count = self.directions.len();
+        let size = |class: usize| {
+            let one = |&i: &usize| direction(&self.items[i].surface).is_some();
+            (0..self.items.len())
+                .filter(one)
+                .filter(|&i| self.classes.direction[i] == class)
+                .count()
+        };
         let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
         let candidates: Vec<Candidate> = pairs
-            .map(|(a, b)| Candidate { equation: Equation::Orthogonal(a, b), range: COSINES })
+            .map(|(a, b)| Candidate {
+                equation: Equation::Orthogonal(a, b),
+                range: COSINES,
+                before: gate::joining(size(a), size(b)),
+            })
             .filter(|c| c.equation.value(&system, &solution.state).abs() < 0.3)
             .collect();
         let verdicts = admit(&system, &solution, &candidates);

@@ -12,6 +12,7 @@ use crate::math::{Point, Unit, frame};
 struct Position {
     /// Only things of one group are compared.
     group: usize,
+    count: usize,
     value: DVector<f64>,
     covariance: DMatrix<f64>,
     /// Where it was measured, and the variance of the direction that leads elsewhere.
@@ -35,7 +36,9 @@ impl Estimate for Position {
             return None;
         }
         let covariance = &self.covariance + &other.covariance + self.lever(other);
-        gate::log_odds(&(&self.value - &other.value), &covariance, self.volume.max(other.volume))
+        let before = gate::joining(self.count, other.count);
+        let volume = self.volume.max(other.volume);
+        gate::log_odds(&(&self.value - &other.value), &covariance, volume, before)
     }
 
     fn fused(&self, other: &Self) -> Self {
@@ -44,6 +47,7 @@ impl Estimate for Position {
         let nearer = self.covariance.trace() <= other.covariance.trace();
         Self {
             group: self.group,
+            count: self.count + other.count,
             value: &self.value + &gain * (&other.value - &self.value),
             covariance: &self.covariance - &gain * &self.covariance,
             measured: if nearer { self.measured } else { other.measured },
@@ -105,6 +109,7 @@ impl View<'_> {
         // The line's own frame is that of the start: turned a little at most.
         Some(Position {
             group: line.direction,
+            count: 1,
             value: DVector::from_row_slice(&value),
             covariance: self.turned(line, &[u, v]),
             measured,
@@ -128,6 +133,7 @@ impl View<'_> {
         let along = state.directions[*direction].dot(&base.coords) + state.scalars[*offset];
         Some(Position {
             group: *direction,
+            count: 1,
             value: DVector::from_element(1, along),
             covariance: self.covariance(&[*offset]),
             measured: *base,
@@ -157,13 +163,22 @@ impl View<'_> {
             _ => return None,
         };
         let value = DVector::from_column_slice(center.coords.as_slice());
-        Some(Position { group: 0, value, covariance, measured: center, turn: 0.0, volume: VOLUME })
+        Some(Position {
+            group: 0,
+            count: 1,
+            value,
+            covariance,
+            measured: center,
+            turn: 0.0,
+            volume: VOLUME,
+        })
     }
 
     fn size(&self, scalar: usize, volume: f64) -> Position {
         let (_, value) = self.scalar(scalar);
         Position {
             group: 0,
+            count: 1,
             value: DVector::from_element(1, value),
             covariance: self.covariance(&[scalar]),
             measured: Point::origin(),
