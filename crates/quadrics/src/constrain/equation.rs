@@ -1,6 +1,7 @@
 //! What cannot be substituted stays an equation, `g(u) = 0`.
 
 use super::system::{State, System};
+use crate::math::frame;
 
 /// A relation between unknowns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -8,9 +9,6 @@ pub enum Equation {
     /// Two directions at right angles: the cosine between them.
     Orthogonal(usize, usize),
 }
-
-/// Step of the differences.
-const STEP: f64 = 1e-6;
 
 impl Equation {
     /// How far the equation is from holding: a cosine or a length.
@@ -28,16 +26,15 @@ impl Equation {
     }
 
     /// Its derivatives: unknown and value.
-    pub fn row(&self, system: &System, state: &State) -> Vec<(usize, f64)> {
-        let mut moved = state.clone();
-        let slope = |unknown: usize| {
-            let mut at = |step: f64| {
-                moved.clone_from(state);
-                moved.nudge(unknown, step);
-                self.value(system, &moved)
-            };
-            (unknown, (at(STEP) - at(-STEP)) / (2.0 * STEP))
-        };
-        self.unknowns(system).into_iter().map(slope).collect()
+    pub fn row(&self, _system: &System, state: &State) -> Vec<(usize, f64)> {
+        match *self {
+            Self::Orthogonal(a, b) => {
+                let (one, other) = (state.directions[a], state.directions[b]);
+                let (u, v) = frame(&one);
+                let (s, t) = frame(&other);
+                let slopes = [u.dot(&other), v.dot(&other), s.dot(&one), t.dot(&one)];
+                [2 * a, 2 * a + 1, 2 * b, 2 * b + 1].into_iter().zip(slopes).collect()
+            }
+        }
     }
 }

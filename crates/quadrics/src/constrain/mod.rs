@@ -51,6 +51,8 @@ pub fn constrain(items: &[Condensed]) -> Constrained {
     work.done()
 }
 
+/// Sine of the angle between directions that equations made one.
+const PARALLEL: f64 = 1e-9;
 /// Increase of chi-squared of one surface that no set of relations may ask for.
 const TOO_MUCH: f64 = 40.0;
 /// Surfaces that a stage may send back before it is given up.
@@ -106,13 +108,41 @@ impl<'a> Work<'a> {
             })
             .filter(|c| c.equation.value(&system, &solution.state).abs() < 0.3)
             .collect();
-        let verdicts = admit(&system, &solution, &candidates);
+        let (verdicts, state) = admit(&system, &solution.state, &solution.spread, &[], &candidates);
         self.equations = candidates.iter().map(|c| c.equation).zip(verdicts).collect();
-        self.directions.clone_from(&solution.state.directions);
+        self.directions = state.directions;
+        self.unite();
         self.solved = self.solve(&self.classes, &self.directions);
         if self.solved.is_none() {
             self.equations.clear();
             self.solved = Some((system, solution));
+        }
+    }
+
+    /// Directions that right angles made parallel are one.
+    fn unite(&mut self) {
+        let count = self.directions.len();
+        for (a, b) in (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))) {
+            if self.directions[a].cross(&self.directions[b]).norm() > PARALLEL {
+                continue;
+            }
+            self.classes.direction.iter_mut().filter(|c| **c == b).for_each(|c| *c = a);
+            for (equation, _) in &mut self.equations {
+                let Equation::Orthogonal(i, j) = equation;
+                [i, j].into_iter().filter(|k| **k == b).for_each(|k| *k = a);
+            }
+            // What was said of both is said once.
+            let equations = std::mem::take(&mut self.equations);
+            for (equation, verdict) in equations {
+                let Equation::Orthogonal(i, j) = equation;
+                let equation = Equation::Orthogonal(i.min(j), i.max(j));
+                let known = self.equations.iter_mut().find(|(other, _)| *other == equation);
+                match known {
+                    Some((_, old)) if matches!(verdict, Verdict::Accepted(_)) => *old = verdict,
+                    Some(_) => {}
+                    None => self.equations.push((equation, verdict)),
+                }
+            }
         }
     }
 

@@ -15,9 +15,6 @@ const ITERATIONS: usize = 20;
 const SETTLED: f64 = 1e-13;
 /// Step of the differences.
 const STEP: f64 = 1e-6;
-/// An equation whose reduced row keeps less than this fraction of its length depends on the others.
-pub const RANK: f64 = 1e-6;
-
 /// The least sum of squares under the equations.
 pub struct Solution {
     /// The unknowns.
