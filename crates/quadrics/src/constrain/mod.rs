@@ -156,14 +156,16 @@ impl<'a> Work<'a> {
         for _ in 0..EVICTIONS {
             let Some((system, solution)) = self.solve(&classes, &directions) else { return };
             let excess = |i: &usize| solution.increase[*i] - before[*i];
-            let worst = (0..self.items.len()).max_by(|a, b| excess(a).total_cmp(&excess(b)));
-            match worst.filter(|i| excess(i) > TOO_MUCH) {
-                Some(worst) => evict(&mut classes, &self.classes, worst),
-                None => {
-                    self.classes = classes;
-                    self.solved = Some((system, solution));
-                    return;
-                }
+            let worst = (0..self.items.len()).map(|i| excess(&i)).fold(0.0, f64::max);
+            if worst <= TOO_MUCH {
+                self.classes = classes;
+                self.solved = Some((system, solution));
+                return;
+            }
+            // Those that pull nearly as hard are mostly on the same wrong side.
+            let pulls = |i: &usize| excess(i) > TOO_MUCH.max(worst / 2.0);
+            for surface in (0..self.items.len()).filter(pulls) {
+                evict(&mut classes, &self.classes, surface);
             }
         }
     }

@@ -13,6 +13,8 @@ struct Position {
     /// Only things of one group are compared.
     group: usize,
     count: usize,
+    /// Whether large groups attract: axes gather, sizes do not.
+    social: bool,
     value: DVector<f64>,
     covariance: DMatrix<f64>,
     /// Where it was measured, and the variance of the direction that leads elsewhere.
@@ -36,7 +38,7 @@ impl Estimate for Position {
             return None;
         }
         let covariance = &self.covariance + &other.covariance + self.lever(other);
-        let before = gate::joining(self.count, other.count);
+        let before = if self.social { gate::joining(self.count, other.count) } else { 0.0 };
         let volume = self.volume.max(other.volume);
         gate::log_odds(&(&self.value - &other.value), &covariance, volume, before)
     }
@@ -48,6 +50,7 @@ impl Estimate for Position {
         Self {
             group: self.group,
             count: self.count + other.count,
+            social: self.social,
             value: &self.value + &gain * (&other.value - &self.value),
             covariance: &self.covariance - &gain * &self.covariance,
             measured: if nearer { self.measured } else { other.measured },
@@ -110,6 +113,7 @@ impl View<'_> {
         Some(Position {
             group: line.direction,
             count: 1,
+            social: true,
             value: DVector::from_row_slice(&value),
             covariance: self.turned(line, &[u, v]),
             measured,
@@ -134,6 +138,7 @@ impl View<'_> {
         Some(Position {
             group: *direction,
             count: 1,
+            social: true,
             value: DVector::from_element(1, along),
             covariance: self.covariance(&[*offset]),
             measured: *base,
@@ -166,6 +171,7 @@ impl View<'_> {
         Some(Position {
             group: 0,
             count: 1,
+            social: false,
             value,
             covariance,
             measured: center,
@@ -179,6 +185,7 @@ impl View<'_> {
         Position {
             group: 0,
             count: 1,
+            social: false,
             value: DVector::from_element(1, value),
             covariance: self.covariance(&[scalar]),
             measured: Point::origin(),

@@ -12,7 +12,7 @@ use crate::surface::Condensed;
 /// Most steps; 4 are the rule.
 const ITERATIONS: usize = 20;
 /// A step of this length, in sizes and radians, is the last one.
-const SETTLED: f64 = 1e-13;
+const SETTLED: f64 = 1e-11;
 /// Step of the differences.
 const STEP: f64 = 1e-6;
 /// The least sum of squares under the equations.

@@ -58,7 +58,7 @@ impl Condensed {
                 .ger(1.0, &row, &row, 1.0);
         }
         condensed.information = sum? / (sigma * sigma);
-        condensed.determined().then_some(condensed)
+        (condensed.determined() && condensed.small()).then_some(condensed)
     }
 
     /// Derivatives of the distance of a point by the coordinates.
@@ -140,6 +140,13 @@ impl Condensed {
         Some((direction, across * tilt * across.transpose()))
     }
 
+    /// Whether the fit is known so well that its surroundings look flat: a cylinder of sizes across
+    /// may as well be a plane.
+    fn small(&self) -> bool {
+        let Some(factor) = self.information.clone().cholesky() else { return false };
+        factor.inverse().diagonal().iter().all(|variance| *variance < VAGUE * VAGUE)
+    }
+
     /// Whether no direction of the form is free, after scaling its diagonal to one.
     fn determined(&self) -> bool {
         let scale = self.information.diagonal().map(|value| 1.0 / value.sqrt());
@@ -150,6 +157,9 @@ impl Condensed {
         (&scale * &self.information * &scale).symmetric_eigenvalues().min() > 1e-9
     }
 }
+
+/// Standard deviation, in radians and sizes, from which on a fit is no small neighbourhood.
+const VAGUE: f64 = 0.5;
 
 /// A plane's normal, or the axis of a cylinder, cone or torus.
 pub fn direction(surface: &Surface) -> Option<Unit> {
