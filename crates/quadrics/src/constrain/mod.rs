@@ -177,7 +177,7 @@ impl<'a> Work<'a> {
         };
         let surfaces: Vec<Surface> =
             (0..free.len()).map(|i| system.surface(i, &solution.state)).collect();
-        let links = report::links(&self.classes, &self.equations, &free, &surfaces);
+        let links = report::links(self.items, &self.classes, &self.equations, &surfaces);
         Constrained { surfaces, links }
     }
 }

@@ -4,7 +4,7 @@ use super::admit::Verdict;
 use super::equation::Equation;
 use super::system::Classes;
 use crate::math::{Point, Unit, Vector};
-use crate::surface::{Surface, direction};
+use crate::surface::{Condensed, Surface, direction};
 
 /// A relation between surfaces, by their positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,22 +29,24 @@ pub struct Link {
 
 /// Everything that holds, in the order of the stages.
 pub fn links(
+    items: &[Condensed],
     classes: &Classes,
     equations: &[(Equation, Verdict)],
-    free: &[Surface],
     fitted: &[Surface],
 ) -> Vec<Link> {
+    let free: Vec<&Surface> = items.iter().map(|item| &item.surface).collect();
+    let fitted: Vec<&Surface> = fitted.iter().collect();
     let mut links = Vec::new();
     let mut class = |kind, members: Vec<usize>, angular, of: &dyn Fn(&Surface, &Surface) -> f64| {
-        let worst = |surfaces: &[Surface]| {
+        let worst = |surfaces: &[&Surface]| {
             let pairs = members.iter().flat_map(|&i| members.iter().map(move |&j| (i, j)));
-            pairs.map(|(i, j)| of(&surfaces[i], &surfaces[j])).fold(0.0, f64::max)
+            pairs.map(|(i, j)| of(surfaces[i], surfaces[j])).fold(0.0, f64::max)
         };
-        let (before, after) = (worst(free), worst(fitted));
+        let (before, after) = (worst(&free), worst(&fitted));
         links.push(Link {
             kind,
             status: "accepted",
-            value: value(kind, &fitted[members[0]]),
+            value: value(kind, fitted[members[0]]),
             before,
             after,
             angular,
@@ -52,7 +54,8 @@ pub fn links(
             surfaces: members,
         });
     };
-    let has = |test: fn(&Surface) -> bool| move |i: &usize| test(&free[*i]);
+    let known = &free;
+    let has = |test: fn(&Surface) -> bool| move |i: &usize| test(known[*i]);
     let directed = has(|s| direction(s).is_some());
     let lined = has(|s| matches!(s, Surface::Cylinder(_) | Surface::Cone(_) | Surface::Torus(_)));
     let centred = has(|s| matches!(s, Surface::Sphere(_) | Surface::Torus(_)));
@@ -79,12 +82,16 @@ pub fn links(
     for members in groups(&classes.angle, conical) {
         class("equal_angle", members, true, &|a, b| (angle(a) - angle(b)).abs());
     }
-    let first = |class: usize| {
-        (0..free.len()).find(|i| classes.direction[*i] == class && direction(&free[*i]).is_some())
+    // The member whose direction is known best speaks for its class.
+    let spread = |i: &usize| items[*i].direction().map(|(_, covariance)| covariance.trace());
+    let speaker = |class: usize| {
+        let members = (0..items.len()).filter(|i| classes.direction[*i] == class);
+        let known = members.filter_map(|i| Some((spread(&i)?, i)));
+        known.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| i)
     };
     for (equation, verdict) in equations {
         let Equation::Orthogonal(a, b) = equation;
-        let (Some(i), Some(j)) = (first(*a), first(*b)) else { continue };
+        let (Some(i), Some(j)) = (speaker(*a), speaker(*b)) else { continue };
         let (status, reason) = match verdict {
             Verdict::Accepted(chi) => ("accepted", format!("chi-squared rises by {chi:.2}")),
             Verdict::Implied => ("implied", "follows from the other relations".to_owned()),
@@ -95,8 +102,8 @@ pub fn links(
             surfaces: vec![i, j],
             status,
             value: None,
-            before: lean(&free[i], &free[j]),
-            after: lean(&fitted[i], &fitted[j]),
+            before: lean(free[i], free[j]),
+            after: lean(fitted[i], fitted[j]),
             angular: true,
             reason,
         });
