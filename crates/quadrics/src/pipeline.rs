@@ -8,9 +8,11 @@ use crate::math::Similarity;
 use crate::mesh::{Mesh, Working, repair};
 use crate::options::{Options, Preset};
 use crate::paper::paper;
-use crate::partition::{Labels, UNLABELLED, compact, hand_out, separate};
+use crate::partition::{Labels, Regions, UNLABELLED, compact, hand_out, separate};
 use crate::prepare::{in_own_cube, in_unit_cube, labels_back, subdivide};
-use crate::recognise::{self, evidence, scene::Scene};
+use crate::recognise::assign::{self, Model};
+use crate::recognise::detect::side_of;
+use crate::recognise::{self, evidence, moves, scene::Scene};
 use crate::result::{Noise, Relation, Repair, Segmentation};
 use crate::surface::select::Evidence;
 use crate::surface::{Condensed, Surface};
@@ -43,10 +45,16 @@ fn run(
     let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh, options.preset))?;
     let Clean { cube, parent, representative, out } = clean;
     let start = initial_labels.map(|labels| start(labels, mesh, &parent, &cube)).transpose()?;
-    let found = match options.preset {
+    let mut found = match options.preset {
         Preset::Default => by_default(context, &cube, options, start.as_deref())?,
         Preset::Paper => by_paper(context, &cube, options, start.as_deref())?,
     };
+    // On scans surfaces that hold still tear regions; a number that was asked for stays.
+    let regular = found.evidence.independent == 1.0 && options.regions.is_none();
+    let fine = options.preset == Preset::Default && cube.len() >= FEW_FACES;
+    if options.constraints && regular && fine {
+        regroup(context, &cube, &mut found)?;
+    }
     let (labels, former) = to_input(&found.labels, &representative);
     let on_clean: Labels = parent.iter().map(|&face| labels[face as usize]).collect();
     let surfaces: Vec<Surface> =
@@ -74,6 +82,33 @@ fn run(
         repairs,
         energy: found.energy,
         timing: context.timing().to_vec(),
+    })
+}
+
+/// Lets the constrained surfaces divide the faces anew (paper, 4.3(5)).
+fn regroup(context: &mut Context, cube: &Working, found: &mut Found) -> Result<()> {
+    let mut scene = Scene::new(&cube.mesh);
+    scene.evidence = found.evidence;
+    let mut fits = context
+        .timed("describe", |context| fit_all(context, &scene, &found.labels, &found.surfaces))?;
+    context.timed("constrain", |_| Ok(constrained(&mut fits, &Similarity::identity())))?;
+    context.timed("assign", |_| {
+        let regions = Regions::new(&found.labels);
+        let mut models: Vec<Model> = fits
+            .into_iter()
+            .enumerate()
+            .map(|(i, fit)| Model {
+                side: side_of(&scene, &fit.surface, regions.faces(i)),
+                surface: fit.surface,
+            })
+            .collect();
+        assign::expand(&scene, &models, &mut found.labels);
+        assign::connect(&scene, &mut models, &mut found.labels);
+        moves::tidy(&mut models, &mut found.labels);
+        moves::drop_needless(&scene, &models, &mut found.labels);
+        moves::tidy(&mut models, &mut found.labels);
+        found.surfaces = models.into_iter().map(|model| model.surface).collect();
+        Ok(())
     })
 }
 

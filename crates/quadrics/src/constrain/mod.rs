@@ -206,3 +206,6 @@ fn evict(classes: &mut Classes, old: &Classes, surface: usize) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

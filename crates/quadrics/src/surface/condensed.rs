@@ -182,6 +182,8 @@ mod tests {
     use super::*;
     use crate::surface::{Cone, Cylinder, Plane, Sphere, Torus};
 
+    const SIGMA: f64 = 1e-4;
+
     fn axis() -> Unit {
         Unit::new_normalize(Vector::new(0.3, -0.2, 1.0))
     }
@@ -233,18 +235,21 @@ mod tests {
     fn the_form_is_the_sum_of_squared_distances_of_a_surface_nearby() {
         for (free, other) in shapes() {
             let points = points(&free);
-            let condensed = Condensed::new(&free, &points, 1.0).unwrap();
+            let condensed = Condensed::new(&free, &points, SIGMA).unwrap();
             let step = condensed.coordinates(&other).unwrap();
             let form = step.dot(&(&condensed.information * &step));
             let squares: f64 = points.iter().map(|p| other.distance(*p).unwrap().powi(2)).sum();
-            assert!((form / squares - 1.0).abs() < 1e-3, "{free:?}: {form} {squares}");
+            assert!(
+                (form * SIGMA * SIGMA / squares - 1.0).abs() < 1e-3,
+                "{free:?}: {form} {squares}"
+            );
         }
     }
 
     #[test]
     fn a_surface_has_the_coordinates_zero_of_itself() {
         for (free, _) in shapes() {
-            let condensed = Condensed::new(&free, &points(&free), 1.0).unwrap();
+            let condensed = Condensed::new(&free, &points(&free), SIGMA).unwrap();
             assert!(condensed.coordinates(&free).unwrap().amax() < 1e-12);
         }
     }
