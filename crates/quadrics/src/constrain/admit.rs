@@ -177,7 +177,8 @@ impl<'a> Judge<'a> {
             }
             let spread = &self.free * rows.transpose();
             let step = -&spread * (&rows * &spread).cholesky()?.solve(&values);
-            if !(step.amax() < 0.5) {
+            // A NaN is no step either.
+            if step.amax().is_nan() || step.amax() > 0.5 {
                 return None;
             }
             state = self.moved(&state, &step);

@@ -30,16 +30,15 @@ pub fn agglomerate<E: Estimate>(estimates: Vec<E>) -> (Vec<usize>, Vec<E>) {
         alive[i] = Some(one.fused(&other));
         class.iter_mut().filter(|c| **c == j).for_each(|c| *c = i);
         best[j] = None;
-        for k in 0..count {
-            let touched =
-                k == i || best[k].is_some_and(|(_, partner)| partner == i || partner == j);
+        for (k, known) in best.iter_mut().enumerate() {
+            let touched = k == i || known.is_some_and(|(_, other)| other == i || other == j);
             if touched {
-                best[k] = best_of(&alive, k);
+                *known = best_of(&alive, k);
             } else if k < i
                 && let Some(o) = odds(&alive, k, i)
-                && best[k].is_none_or(|(known, _)| o > known)
+                && known.is_none_or(|(best, _)| o > best)
             {
-                best[k] = Some((o, i));
+                *known = Some((o, i));
             }
         }
     }

@@ -21,14 +21,14 @@ pub fn joining(one: usize, other: usize) -> f64 {
 }
 
 /// Log odds of a relation; `None` below even odds, or where chi-squared refuses it.
-pub fn log_odds<D: Dim>(
+pub fn log_odds<D>(
     g: &OVector<f64, D>,
     s: &OMatrix<f64, D, D>,
     volume: f64,
     before: f64,
 ) -> Option<f64>
 where
-    D: DimMin<D, Output = D>,
+    D: Dim + DimMin<D, Output = D>,
     DefaultAllocator: Allocator<D> + Allocator<D, D>,
 {
     let factor = s.clone().cholesky()?;

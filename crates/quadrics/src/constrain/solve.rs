@@ -63,7 +63,8 @@ pub fn solve(
     for _ in 0..ITERATIONS {
         let step = Step::new(items, system, &state, equations, &place)?;
         state = state.moved(step.change.as_slice());
-        if !(step.change.amax() < 1.0) {
+        // A NaN is no step either.
+        if step.change.amax().is_nan() || step.change.amax() > 1.0 {
             return None;
         }
         if step.change.amax() < SETTLED {

@@ -121,7 +121,7 @@ impl State {
         }
         let direction = &mut self.directions[unknown / 2];
         let (u, v) = frame(direction);
-        let along = if unknown % 2 == 0 { u } else { v };
+        let along = if unknown.is_multiple_of(2) { u } else { v };
         *direction = Unit::new_normalize(direction.into_inner() + along.into_inner() * step);
     }
 
