@@ -208,4 +208,6 @@ fn evict(classes: &mut Classes, old: &Classes, surface: usize) {
 }
 
 #[cfg(test)]
+mod admit_tests;
+#[cfg(test)]
 mod tests;
