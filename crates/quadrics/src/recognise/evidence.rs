@@ -4,6 +4,7 @@
 //! from probes tell both apart. The estimate is repeated until what it grows agrees with it.
 
 use rand::RngExt;
+use rayon::prelude::*;
 
 use super::detect::{Workspace, propose};
 use super::scene::{ROUNDING, Scene};
@@ -50,7 +51,7 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
     let expected = scene.evidence.normal_sigma;
     for round in 0..ROUNDS {
         context.step("noise", round as f64 / ROUNDS as f64)?;
-        let mut rows = probe(context, scene);
+        let mut rows = probe(context, scene, PROBES);
         if rows.is_empty() {
             return Ok(());
         }
@@ -72,16 +73,50 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
             break;
         }
     }
+    coarsen(context, scene)
+}
+
+/// Seeds that are asked whether a scale explains the mesh, and the least share that must be: less
+/// where the mesh is exact, as what is left then are small surfaces.
+const ASKED: usize = 64;
+const EXPLAINED: f64 = 0.8;
+const EXPLAINED_SCAN: f64 = 0.9;
+/// How much coarser the next scale is, and the coarsest, in sizes: beyond it all evidence is noise.
+const COARSER: f64 = 3.0;
+const COARSEST: f64 = 1e-3;
+
+/// Raises sigma until it explains most of the mesh.
+///
+/// Real meshes may be exact on planes and lie off curved surfaces by the sagitta of the facets that
+/// they were made from, or by what a remesher rounded; the planes alone say that there is no noise.
+/// The first scale that explains the mesh barely does: the next one is taken.
+fn coarsen(context: &mut Context, scene: &mut Scene) -> Result<()> {
+    let share = if scene.correlated() { EXPLAINED_SCAN } else { EXPLAINED };
+    let mut raised = false;
+    let mut explained = false;
+    while !explained && scene.evidence.sigma < COARSEST {
+        context.step("noise", 1.0)?;
+        explained = probe(context, scene, ASKED).len() as f64 >= share * ASKED as f64;
+        if explained && !raised {
+            return Ok(());
+        }
+        let sigma = (COARSER * scene.evidence.sigma).min(COARSEST);
+        scene.evidence =
+            Evidence { sigma, independent: INDEPENDENT, general: sigma < QUIET, ..scene.evidence };
+        raised = true;
+    }
     Ok(())
 }
 
-fn probe(context: &mut Context, scene: &Scene) -> Vec<Row> {
+/// What grows from so many random seeds and is large enough to speak.
+fn probe(context: &mut Context, scene: &Scene, seeds: usize) -> Vec<Row> {
     let unlabelled = vec![UNLABELLED; scene.mesh.faces.len()];
-    let mut work = Workspace::default();
     let seeds: Vec<u32> =
-        (0..PROBES).map(|_| context.rng.random_range(0..unlabelled.len() as u32)).collect();
-    let grown = seeds.into_iter().filter_map(|seed| propose(scene, seed, &unlabelled, &mut work));
-    grown
+        (0..seeds).map(|_| context.rng.random_range(0..unlabelled.len() as u32)).collect();
+    seeds
+        .into_par_iter()
+        .map_init(Workspace::default, |work, seed| propose(scene, seed, &unlabelled, work))
+        .flatten()
         .filter(|grown| grown.faces.len() >= FEWEST)
         .map(|grown| scatter(scene, &grown.choice.surface, &grown.faces))
         .collect()
