@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod constrain;
 pub mod context;
 pub mod describe;
 pub mod detect;
