@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from quadrics import synth
     from quadrics.errors import InputError, OptionError, OutputError, QuadricsError
+    from quadrics.evaluation import Evaluation, Match, evaluate
     from quadrics.mesh import Mesh, as_mesh, read
     from quadrics.options import Options
     from quadrics.result import Noise, Region, Relation, Repair, Result
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 # In reading order: the main job, what goes in, what comes out, what may go wrong.
 _HOME = {
     "segment": "run",
+    "evaluate": "evaluation",
+    "Evaluation": "evaluation",
+    "Match": "evaluation",
     "Options": "options",
     "Mesh": "mesh",
     "as_mesh": "mesh",
@@ -59,8 +63,10 @@ _HOME = {
 __all__ = [
     "Cone",
     "Cylinder",
+    "Evaluation",
     "FreeForm",
     "InputError",
+    "Match",
     "Mesh",
     "Noise",
     "OptionError",
@@ -78,6 +84,7 @@ __all__ = [
     "Torus",
     "__version__",
     "as_mesh",
+    "evaluate",
     "read",
     "segment",
     "synth",

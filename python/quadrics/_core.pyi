@@ -1,5 +1,5 @@
 from collections.abc import Callable
-from typing import Any, TypedDict
+from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ __all__ = [
     "default_options",
     "default_scanner",
     "distance",
+    "evaluate",
     "inspect",
     "noise",
     "normal",
@@ -59,6 +60,20 @@ def segment(
     initial_labels: NDArray[np.uint32] | None = None,
     progress: Callable[[str, float], object] | None = None,
 ) -> _Segmentation: ...
+
+_Flat: TypeAlias = tuple[str, list[float]]
+_Side: TypeAlias = tuple[
+    NDArray[np.int32], list[tuple[str, _Flat | None, tuple[str, _Flat] | None]]
+]
+
+def evaluate(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    found: _Side,
+    truth: _Side,
+    tolerance: float,
+    beta: float,
+) -> dict[str, Any]: ...
 def part_names() -> list[str]: ...
 def part(name: str, faces: int) -> dict[str, Any]: ...
 def default_scanner() -> dict[str, Any]: ...

@@ -2,6 +2,7 @@
 
 mod context;
 mod error;
+mod evaluate;
 mod mesh;
 mod picture;
 mod segment;
@@ -20,6 +21,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(mesh::write_segmentation, module)?)?;
     module.add_function(wrap_pyfunction!(segment::segment, module)?)?;
     module.add_function(wrap_pyfunction!(segment::default_options, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(surface::distance, module)?)?;
     module.add_function(wrap_pyfunction!(surface::normal, module)?)?;
     module.add_function(wrap_pyfunction!(surface::project, module)?)?;

@@ -6,6 +6,7 @@ pub mod context;
 pub mod describe;
 pub mod detect;
 pub mod error;
+pub mod evaluate;
 pub mod format;
 pub mod math;
 pub mod mesh;
