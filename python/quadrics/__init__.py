@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from quadrics import synth
+    from quadrics.denoising import Deviation, denoise, deviation
     from quadrics.errors import InputError, OptionError, OutputError, QuadricsError
     from quadrics.evaluation import Evaluation, Match, evaluate
     from quadrics.mesh import Mesh, as_mesh, read
@@ -36,6 +37,9 @@ _HOME = {
     "evaluate": "evaluation",
     "Evaluation": "evaluation",
     "Match": "evaluation",
+    "denoise": "denoising",
+    "deviation": "denoising",
+    "Deviation": "denoising",
     "Options": "options",
     "Mesh": "mesh",
     "as_mesh": "mesh",
@@ -63,6 +67,7 @@ _HOME = {
 __all__ = [
     "Cone",
     "Cylinder",
+    "Deviation",
     "Evaluation",
     "FreeForm",
     "InputError",
@@ -84,6 +89,8 @@ __all__ = [
     "Torus",
     "__version__",
     "as_mesh",
+    "denoise",
+    "deviation",
     "evaluate",
     "read",
     "segment",

@@ -9,6 +9,8 @@ __all__ = [
     "coefficients",
     "default_options",
     "default_scanner",
+    "denoise",
+    "deviation",
     "distance",
     "evaluate",
     "inspect",
@@ -73,6 +75,19 @@ def evaluate(
     truth: _Side,
     tolerance: float,
     beta: float,
+) -> dict[str, Any]: ...
+def denoise(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    labels: NDArray[np.int32],
+    surfaces: list[_Flat | None],
+    sigma: float,
+) -> NDArray[np.float64]: ...
+def deviation(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    reference_positions: NDArray[np.float64],
+    reference_faces: NDArray[np.uint32],
 ) -> dict[str, Any]: ...
 def part_names() -> list[str]: ...
 def part(name: str, faces: int) -> dict[str, Any]: ...

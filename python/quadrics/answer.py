@@ -32,7 +32,8 @@ AnswerLike: TypeAlias = "Result | Part | str | os.PathLike[str]"
 class Answer:
     """Labels of triangles (places in `rows`, -1 for none), regions with their numbers, and a mesh.
 
-    `beta` is the weight of the normals (eq. 2) that the segmentation was made with.
+    `beta` is the weight of the normals (eq. 2) that the segmentation was made with, `noise` the
+    standard deviation that it found, if it looked for it.
     """
 
     labels: NDArray[np.int32]
@@ -40,6 +41,7 @@ class Answer:
     rows: list[Row]
     mesh: Mesh | None
     beta: float
+    noise: float | None
 
 
 def as_answer(source: AnswerLike) -> Answer:
@@ -52,10 +54,16 @@ def as_answer(source: AnswerLike) -> Answer:
     """
     if isinstance(source, Part):
         documents = [_document(number, s) for number, s in enumerate(source.surfaces)]
-        return _answer(source.labels, documents, source.mesh, Options.beta)
+        return _answer(source.labels, documents, source.mesh, Options.beta, None)
     if isinstance(source, Result):
         documents = [_document(region.id, region.surface) for region in source.regions]
-        return _answer(source.triangle_labels, documents, source.mesh, source.options.beta)
+        return _answer(
+            source.triangle_labels,
+            documents,
+            source.mesh,
+            source.options.beta,
+            source.noise.position,
+        )
     return _from_folder(Path(source))
 
 
@@ -81,11 +89,17 @@ def _from_folder(folder: Path) -> Answer:
         raise InputError(f"{folder / 'labels.npy'}: is no .npy file of whole numbers") from None
     beside = folder / ("mesh.ply" if truth else "segmentation.ply")
     beta = document.get("options", {}).get("beta", Options.beta)
-    return _answer(labels, regions, load(beside) if beside.is_file() else None, float(beta))
+    noise = document.get("noise", {}).get("position")
+    mesh = load(beside) if beside.is_file() else None
+    return _answer(labels, regions, mesh, float(beta), noise)
 
 
 def _answer(
-    labels: NDArray[Any], documents: list[dict[str, Any]], mesh: Mesh | None, beta: float
+    labels: NDArray[Any],
+    documents: list[dict[str, Any]],
+    mesh: Mesh | None,
+    beta: float,
+    noise: float | None,
 ) -> Answer:
     named = {document["id"]: document for document in documents}
     # A label without a region is a region without a surface.
@@ -95,7 +109,7 @@ def _answer(
     places[ids] = np.arange(len(ids), dtype=np.int32)
     # Negative labels take the last place, which stays -1.
     places = places[np.where(labels < 0, -1, labels)]
-    return Answer(places, ids, [_row(named.get(n, {})) for n in ids], mesh, beta)
+    return Answer(places, ids, [_row(named.get(n, {})) for n in ids], mesh, beta, noise)
 
 
 def _row(region: Mapping[str, Any]) -> Row:

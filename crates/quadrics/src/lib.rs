@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod context;
+pub mod denoise;
 pub mod describe;
 pub mod detect;
 pub mod error;

@@ -9,13 +9,19 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from quadrics.cli import evaluate, info, noise, segment
+from quadrics.cli import denoise, evaluate, info, noise, segment
 from quadrics.errors import InputError, OptionError, OutputError
 
 #: What a shell and a scheduler see.
 DONE, FAULT, USAGE, INPUT, OUTPUT, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
-COMMANDS = {"segment": segment, "info": info, "noise": noise, "evaluate": evaluate}
+COMMANDS = {
+    "segment": segment,
+    "info": info,
+    "noise": noise,
+    "evaluate": evaluate,
+    "denoise": denoise,
+}
 
 EXAMPLES = """\
 examples:

@@ -5,6 +5,7 @@
 
 mod assignment;
 mod consistency;
+mod deviation;
 mod energy;
 mod hamming;
 mod overlap;
@@ -12,6 +13,7 @@ mod parameters;
 mod rand_index;
 mod verdict;
 
+pub use deviation::{Deviation, deviation};
 pub use energy::{Energy, energy};
 pub use overlap::Pair;
 pub use rand_index::Rand;
