@@ -1,11 +1,12 @@
 //! The stations in order, nothing else.
 
+use crate::baseline::baseline;
 use crate::context::Context;
 use crate::describe::describe;
 use crate::error::{Error, Result};
 use crate::math::Similarity;
 use crate::mesh::{Mesh, Working, repair};
-use crate::options::{Options, Preset};
+use crate::options::{Method, Options, Preset};
 use crate::paper::paper;
 use crate::partition::{Labels, UNLABELLED, compact, hand_out, separate};
 use crate::prepare::{in_own_cube, in_unit_cube, labels_back, subdivide};
@@ -39,12 +40,14 @@ fn run(
     options: &Options,
     initial_labels: Option<&[u32]>,
 ) -> Result<Segmentation> {
-    let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh, options.preset))?;
+    let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh, options))?;
     let Clean { cube, parent, representative, out } = clean;
     let start = initial_labels.map(|labels| start(labels, mesh, &parent, &cube)).transpose()?;
-    let found = match options.preset {
-        Preset::Default => by_default(context, &cube, options, start.as_deref())?,
-        Preset::Paper => by_paper(context, &cube, options, start.as_deref())?,
+    let found = match (options.method, options.preset) {
+        (Method::Quadrics, Preset::Default) => {
+            by_default(context, &cube, options, start.as_deref())?
+        }
+        _ => by_paper(context, &cube, options, start.as_deref())?,
     };
     let (labels, former) = to_input(&found.labels, &representative);
     let on_clean: Labels = parent.iter().map(|&face| labels[face as usize]).collect();
@@ -83,12 +86,12 @@ struct Clean {
 }
 
 impl Clean {
-    fn new(mesh: &Mesh, preset: Preset) -> Result<(Self, Vec<Repair>)> {
+    fn new(mesh: &Mesh, options: &Options) -> Result<(Self, Vec<Repair>)> {
         let repaired = repair(mesh)?;
         // The paper's unit cube is that of the input's axes.
-        let (mesh, former, into) = match preset {
-            Preset::Default => in_own_cube(repaired.mesh)?,
-            Preset::Paper => in_unit_cube(repaired.mesh)?,
+        let (mesh, former, into) = match (options.method, options.preset) {
+            (Method::Quadrics, Preset::Default) => in_own_cube(repaired.mesh)?,
+            _ => in_unit_cube(repaired.mesh)?,
         };
         let mut new = vec![0; former.len()];
         former.iter().zip(0..).for_each(|(&old, face)| new[old as usize] = face);
@@ -157,7 +160,10 @@ fn by_paper(
     options: &Options,
     start: Option<&[u32]>,
 ) -> Result<Found> {
-    let found = paper(context, &cube.mesh, options, start)?;
+    let found = match options.method {
+        Method::Quadrics => paper(context, &cube.mesh, options, start)?,
+        _ => baseline(context, &cube.mesh, options, start)?,
+    };
     let evidence = context.timed("noise", |context| {
         let mut scene = Scene::new(&cube.mesh);
         evidence::measure(context, &mut scene)?;

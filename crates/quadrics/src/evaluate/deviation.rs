@@ -36,7 +36,7 @@ pub fn deviation(mesh: &Mesh, reference: &Mesh) -> Result<Deviation> {
     let (there, back) = (Target::new(mesh)?, Target::new(reference)?);
     let diagonal = |mesh: &Mesh| mesh.bounds().map_or(0.0, |(low, high)| (high - low).norm());
     let step = STEP * diagonal(mesh).max(diagonal(reference));
-    let (one, other) = (back.from(mesh, step), there.from(reference, step));
+    let (one, other) = (back.distances_of(mesh, step), there.distances_of(reference, step));
     let of_vertex = mesh.positions.par_iter().map(|&point| back.distance(point)).collect();
     Ok(Deviation { hausdorff: one.0.max(other.0), mean: (one.1 + other.1) / 2.0, of_vertex })
 }
@@ -56,11 +56,11 @@ impl Target {
     }
 
     /// Largest and mean distance of a mesh.
-    fn from(&self, mesh: &Mesh, step: f64) -> (f64, f64) {
+    fn distances_of(&self, mesh: &Mesh, step: f64) -> (f64, f64) {
         let areas = Geometry::new(mesh).areas;
         let rows: Vec<(f64, f64)> = (0..mesh.faces.len())
             .into_par_iter()
-            .map(|face| self.from_face(mesh.corners(face), step))
+            .map(|face| self.distances_of_face(mesh.corners(face), step))
             .collect();
         let most = rows.iter().map(|row| row.0).fold(0.0, f64::max);
         let sum: f64 = rows.iter().zip(&areas).map(|(row, area)| row.1 * area).sum();
@@ -68,7 +68,7 @@ impl Target {
     }
 
     /// Largest and mean distance over a lattice on a triangle, by the trapezoidal rule.
-    fn from_face(&self, [a, b, c]: [Point; 3], step: f64) -> (f64, f64) {
+    fn distances_of_face(&self, [a, b, c]: [Point; 3], step: f64) -> (f64, f64) {
         let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
         let n = ((longest / step).ceil() as usize).clamp(1, MOST);
         let (mut most, mut sum) = (0f64, 0.0);

@@ -13,6 +13,7 @@ mod plane;
 pub mod quadrature;
 mod quadric;
 mod refine;
+pub mod round;
 pub mod select;
 mod sphere;
 pub mod start;
