@@ -106,6 +106,7 @@ def noise(
     faces: NDArray[np.uint32],
     sigma: float,
     ratio: float,
+    gaussian: bool,
     seed: int,
 ) -> NDArray[np.float64]: ...
 def default_options() -> dict[str, Any]: ...

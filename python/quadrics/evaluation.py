@@ -11,6 +11,7 @@ import numpy as np
 from quadrics import _core
 from quadrics.answer import Answer, AnswerLike, as_answer
 from quadrics.errors import InputError, OptionError
+from quadrics.mesh import Mesh
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,11 @@ def evaluate(result: AnswerLike, truth: AnswerLike, *, tolerance: float = 0.01) 
     mesh = true.mesh or found.mesh
     if mesh is None:
         raise InputError(f"{truth}: there is no mesh beside the labels")
+    return judge(found, true, mesh, tolerance)
+
+
+def judge(found: Answer, true: Answer, mesh: Mesh, tolerance: float = 0.01) -> Evaluation:
+    """Judge an answer on a mesh, which may have noise that neither side's mesh has."""
     one, other = (found.labels, found.rows), (true.labels, true.rows)
     seen = _core.evaluate(mesh.vertices, mesh.faces, one, other, tolerance, found.beta)
     return _evaluation(seen, found, true)

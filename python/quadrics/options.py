@@ -18,9 +18,9 @@ class Options:
     Parameters
     ----------
     method : {"quadrics", "vsa", "qsf", "hfp", "ransac"}
-        Ours, as the preset says, or one to compare it with: variational shape approximation by planes,
-        quadric surface fitting from random seeds, hierarchical fitting of primitives (these three
-        need the number of regions), or the detection of the paper without its loop.
+        Ours, as the preset says, or one to compare it with: variational shape approximation by
+        planes, quadric surface fitting from random seeds, hierarchical fitting of primitives (these
+        three need the number of regions), or the detection of the paper without its loop.
     preset : {"default", "paper"}
         Method of ours: the best that we know, or section 4 of the paper to the letter.
     regions : int or None

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from quadrics.cli import denoise, evaluate, info, noise, segment
+from quadrics.cli import denoise, evaluate, info, noise, reproduce, segment
 from quadrics.errors import InputError, OptionError, OutputError
 
 #: What a shell and a scheduler see.
@@ -21,6 +21,7 @@ COMMANDS = {
     "noise": noise,
     "evaluate": evaluate,
     "denoise": denoise,
+    "reproduce": reproduce,
 }
 
 EXAMPLES = """\

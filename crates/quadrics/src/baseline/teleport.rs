@@ -15,7 +15,8 @@ const TELEPORTATIONS: usize = 20;
 /// The best state, and the energies of all rounds in turn.
 pub fn converge(context: &mut Context, task: &Task, start: State) -> Result<(State, Vec<f64>)> {
     let (mut best, mut energy) = lloyd(context, task, start)?;
-    for _ in 0..TELEPORTATIONS {
+    // No rounds at all leave the start as it is.
+    for _ in 0..TELEPORTATIONS.min(task.options.max_iterations) {
         let count = best.regions.len();
         let mut labels = best.labels.clone();
         let step = || context.step("segment", 0.5);
