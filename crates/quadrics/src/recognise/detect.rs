@@ -5,7 +5,7 @@ use rand::RngExt;
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
-use crate::partition::UNLABELLED;
+use crate::partition::{Labels, UNLABELLED};
 use crate::surface::select::{self, Choice};
 use crate::surface::{Shape, Surface, refine_within};
 
@@ -56,10 +56,16 @@ pub struct Workspace {
 }
 
 /// Covers the mesh with surfaces, largest first; faces that nothing explains stay unlabelled.
+/// `None` when seeds lead nowhere on more than a `share` of the faces.
 ///
 /// # Errors
 /// Cancellation.
-pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Result<Vec<Candidate>> {
+pub fn detect(
+    context: &mut Context,
+    scene: &Scene,
+    share: f64,
+) -> Result<Option<(Labels, Vec<Candidate>)>> {
+    let mut labels = vec![UNLABELLED; scene.mesh.faces.len()];
     let mut found: Vec<Candidate> = Vec::new();
     let mut work = Workspace::default();
     let mut open: Vec<u32> = (0..labels.len() as u32).collect();
@@ -68,13 +74,13 @@ pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Resul
     loop {
         open.retain(|&f| labels[f as usize] == UNLABELLED && !dead[f as usize]);
         if open.is_empty() {
-            return Ok(found);
+            return Ok(Some((labels, found)));
         }
         context.step("detect", 1.0 - open.len() as f64 / total)?;
         let mut batch = Vec::new();
         for _ in 0..BATCH {
             let seed = open[context.rng.random_range(0..open.len())];
-            match propose(scene, seed, labels, &mut work) {
+            match propose(scene, seed, &labels, &mut work) {
                 Some(candidate) if candidate.faces.len() >= FEWEST => batch.push(candidate),
                 _ => bury(scene, seed, &mut dead),
             }
@@ -88,6 +94,10 @@ pub fn detect(context: &mut Context, scene: &Scene, labels: &mut [u32]) -> Resul
                 candidate.faces.iter().for_each(|&f| labels[f as usize] = id);
                 found.push(candidate);
             }
+        }
+        let lost = (0..labels.len()).filter(|&f| dead[f] && labels[f] == UNLABELLED).count();
+        if lost as f64 > share * total {
+            return Ok(None);
         }
     }
 }

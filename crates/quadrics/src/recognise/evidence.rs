@@ -4,8 +4,9 @@
 //! from probes tell both apart. The estimate is repeated until what it grows agrees with it.
 
 use rand::RngExt;
+use rayon::prelude::*;
 
-use super::detect::{Workspace, propose};
+use super::detect::{Candidate, Workspace, propose};
 use super::scene::{ROUNDING, Scene};
 use crate::context::Context;
 use crate::error::Result;
@@ -50,7 +51,11 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
     let expected = scene.evidence.normal_sigma;
     for round in 0..ROUNDS {
         context.step("noise", round as f64 / ROUNDS as f64)?;
-        let mut rows = probe(context, scene);
+        let mut rows: Vec<Row> = probe(scene, &seeds(context, scene, PROBES))
+            .into_iter()
+            .filter(|grown| grown.faces.len() >= FEWEST)
+            .map(|grown| scatter(scene, &grown.choice.surface, &grown.faces))
+            .collect();
         if rows.is_empty() {
             return Ok(());
         }
@@ -72,18 +77,64 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
             break;
         }
     }
+    if scene.correlated() && scene.evidence.sigma < COARSEST && !explained(context, scene)? {
+        coarsen(context, scene)?;
+    }
     Ok(())
 }
 
-fn probe(context: &mut Context, scene: &Scene) -> Vec<Row> {
+/// How much coarser the next scale is, and the coarsest, in sizes: beyond it all evidence is noise.
+const COARSER: f64 = 3.0;
+pub const COARSEST: f64 = 1e-3;
+
+/// Raises sigma until it explains most of the mesh.
+///
+/// Real meshes may be exact on planes and lie off curved surfaces by the sagitta of the facets that
+/// they were made from, or by what a remesher rounded; the planes alone say that there is no noise.
+/// The first scale that explains the mesh barely does: the next one is taken.
+///
+/// # Errors
+/// Cancellation.
+pub fn coarsen(context: &mut Context, scene: &mut Scene) -> Result<()> {
+    loop {
+        let enough = scene.correlated() && explained(context, scene)?;
+        let sigma = (COARSER * scene.evidence.sigma).min(COARSEST);
+        scene.evidence =
+            Evidence { sigma, independent: INDEPENDENT, general: sigma < QUIET, ..scene.evidence };
+        if enough || sigma >= COARSEST {
+            return Ok(());
+        }
+    }
+}
+
+/// Seeds that are asked whether a scale explains the mesh, and the least share that must be.
+const ASKED: usize = 64;
+const EXPLAINED: f64 = 0.9;
+
+/// Whether most random faces lie in a region of some size grown from any of them.
+fn explained(context: &mut Context, scene: &Scene) -> Result<bool> {
+    context.step("noise", 1.0)?;
+    let seeds = seeds(context, scene, ASKED);
+    let mut covered = vec![false; scene.mesh.faces.len()];
+    for grown in probe(scene, &seeds).iter().filter(|grown| grown.faces.len() >= FEWEST) {
+        grown.faces.iter().for_each(|&face| covered[face as usize] = true);
+    }
+    let count = seeds.iter().filter(|&&seed| covered[seed as usize]).count();
+    Ok(count as f64 >= EXPLAINED * ASKED as f64)
+}
+
+fn seeds(context: &mut Context, scene: &Scene, count: usize) -> Vec<u32> {
+    let faces = scene.mesh.faces.len() as u32;
+    (0..count).map(|_| context.rng.random_range(0..faces)).collect()
+}
+
+/// What grows from seeds.
+fn probe(scene: &Scene, seeds: &[u32]) -> Vec<Candidate> {
     let unlabelled = vec![UNLABELLED; scene.mesh.faces.len()];
-    let mut work = Workspace::default();
-    let seeds: Vec<u32> =
-        (0..PROBES).map(|_| context.rng.random_range(0..unlabelled.len() as u32)).collect();
-    let grown = seeds.into_iter().filter_map(|seed| propose(scene, seed, &unlabelled, &mut work));
-    grown
-        .filter(|grown| grown.faces.len() >= FEWEST)
-        .map(|grown| scatter(scene, &grown.choice.surface, &grown.faces))
+    seeds
+        .par_iter()
+        .map_init(Workspace::default, |work, &seed| propose(scene, seed, &unlabelled, work))
+        .flatten()
         .collect()
 }
 

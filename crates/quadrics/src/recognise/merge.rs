@@ -11,6 +11,7 @@ use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
 use crate::partition::Regions;
+use crate::surface::Surface;
 use crate::surface::select::{self, Choice, Evidence};
 
 /// Regions whose normals differ more across their border, on the mean, are not one surface.
@@ -45,7 +46,9 @@ pub fn merge(
     let mut merger = Merger::new(scene, models, labels);
     loop {
         context.step("merge", 0.0)?;
-        merger.judge(borders(scene, labels).into_iter().filter(|b| b.2 < smooth));
+        let typed = |id: u32| !matches!(models[id as usize].surface, Surface::FreeForm);
+        let pairs = borders(scene, labels).into_iter();
+        merger.judge(pairs.filter(|b| b.2 < smooth && typed(b.0) && typed(b.1)));
         if merger.apply(models, labels, 0.0, usize::MAX) == 0 {
             break;
         }

@@ -5,6 +5,7 @@ pub mod count;
 mod cut;
 pub mod detect;
 pub mod evidence;
+mod free_form;
 pub mod merge;
 pub mod moves;
 pub mod scene;
@@ -18,6 +19,7 @@ use crate::partition::{Labels, UNLABELLED, components, region_count};
 use crate::surface::select::Evidence;
 use crate::surface::{Plane, Surface};
 use assign::Model;
+use detect::Candidate;
 use scene::Scene;
 
 /// Labels of all faces, and a surface for every label.
@@ -46,7 +48,7 @@ pub fn recognise(
     context.timed("noise", |context| evidence::measure(context, &mut scene))?;
     let (mut labels, mut models) = match initial_labels {
         Some(labels) => given(&scene, labels),
-        None => context.timed("detect", |context| start(context, &scene))?,
+        None => start(context, &mut scene)?,
     };
     let mut energies: Vec<f64> = Vec::new();
     for round in 0..ROUNDS {
@@ -65,6 +67,7 @@ pub fn recognise(
         })?;
         context
             .timed("merge", |context| merge::merge(context, &scene, &mut models, &mut labels))?;
+        free_form::unite(&scene, &mut models, &mut labels);
         energies.push(energy(&scene, &models, &labels));
         if let [.., before, now] = energies[..]
             && (before - now).abs() <= CONVERGED * before
@@ -107,10 +110,23 @@ const ROUNDS: usize = 4;
 /// Connected faces that no surface explains and that are more than this are free-form.
 const FREE_FORM: u32 = 60;
 
-/// Detection, and what it left: large rests are free-form, small ones join a neighbour.
-fn start(context: &mut Context, scene: &Scene) -> Result<(Labels, Vec<Model>)> {
-    let mut labels = vec![UNLABELLED; scene.mesh.faces.len()];
-    let found = detect::detect(context, scene, &mut labels)?;
+/// A scale that leaves more than this share of the faces unexplained is too fine for the mesh.
+const UNEXPLAINED: f64 = 0.1;
+
+/// Detection, at a coarser scale where the first one explains too little.
+fn start(context: &mut Context, scene: &mut Scene) -> Result<(Labels, Vec<Model>)> {
+    loop {
+        let coarsest = scene.evidence.sigma >= evidence::COARSEST;
+        let share = if coarsest || scene.correlated() { 1.0 } else { UNEXPLAINED };
+        match context.timed("detect", |context| detect::detect(context, scene, share))? {
+            Some((labels, found)) => return Ok(hand_out(scene, labels, found)),
+            None => context.timed("noise", |context| evidence::coarsen(context, scene))?,
+        }
+    }
+}
+
+/// What detection left: large rests are free-form, small ones join a neighbour.
+fn hand_out(scene: &Scene, mut labels: Labels, found: Vec<Candidate>) -> (Labels, Vec<Model>) {
     let mut models: Vec<Model> =
         found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }).collect();
     let (component, sizes) = components(&labels, &scene.adjacency);
@@ -127,5 +143,5 @@ fn start(context: &mut Context, scene: &Scene) -> Result<(Labels, Vec<Model>)> {
     }
     assign::flood(scene, &models, &mut labels);
     assign::name_the_rest(scene, &mut models, &mut labels);
-    Ok((labels, models))
+    (labels, models)
 }
