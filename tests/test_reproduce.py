@@ -18,7 +18,7 @@ from quadrics.reproduce.data import Data, Model
 from quadrics.reproduce.figure11 import METHODS
 from quadrics.reproduce.page import page
 from quadrics.reproduce.plot import Curve, plot
-from quadrics.reproduce.section import Note, Pictures, Section, Table
+from quadrics.reproduce.section import Block, Note, Pictures, Section, Table
 from quadrics.reproduce.table2 import compare
 
 SHARED = Path(__file__).parents[2] / "shared" / "data"
@@ -68,8 +68,8 @@ def test_a_plot_is_svg_and_keeps_its_points_inside() -> None:
 
 def test_words_of_a_page_are_escaped() -> None:
     blank = np.zeros((4, 4, 3), np.uint8)
-    blocks = [Table(("a<b",), (("1>0",),)), Note("x & y"), Pictures([("<i>", blank)])]
-    text = page([Section("t", [*blocks])])
+    blocks: list[Block] = [Table(("a<b",), (("1>0",),)), Note("x & y"), Pictures([("<i>", blank)])]
+    text = page([Section("t", blocks)])
     assert "a&lt;b" in text
     assert "x &amp; y" in text
     assert "<i>" not in text
