@@ -63,7 +63,7 @@ def test_a_plot_is_svg_and_keeps_its_points_inside() -> None:
         svg = ET.fromstring(plot(curves, "x", "y", log=log))  # noqa: S314
         for line in svg.iter("polyline"):
             points = [tuple(map(float, p.split(","))) for p in line.attrib["points"].split()]
-            assert all(0 <= x <= 620 and 0 <= y <= 360 for x, y in points)
+            assert all(0 <= x <= 800 and 0 <= y <= 360 for x, y in points)
 
 
 def test_words_of_a_page_are_escaped() -> None:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from html import escape
 
 COLOURS = ("#1b6ca8", "#c8553d", "#3c8d53", "#8a5aa8", "#b58900", "#555555")
-WIDTH, HEIGHT = 620, 360
-LEFT, RIGHT, TOP, BOTTOM = 70, 20, 20, 50
+WIDTH, HEIGHT = 800, 360
+#: The legend stands in the margin to the right.
+LEFT, RIGHT, TOP, BOTTOM = 80, 210, 20, 50
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ def plot(curves: Sequence[Curve], x_label: str, y_label: str, *, log: bool = Fal
     parts = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" font-size="12">']
     for tick in _ticks(low_y, high_y, log=log):
         x, y = at(low_x, tick)
-        shown = f"{10**tick:.0e}" if log else f"{tick:.3g}"
+        shown = f"{10**tick:.3g}" if log else f"{tick:.3g}"
         parts.append(f'<path d="M{x:.1f} {y:.1f}H{WIDTH - RIGHT}" stroke="#e5e5e5"/>')
         parts.append(f'<text x="{x - 6:.1f}" y="{y + 4:.1f}" text-anchor="end">{shown}</text>')
     for tick in _ticks(low_x, high_x, log=False):
@@ -55,8 +56,8 @@ def plot(curves: Sequence[Curve], x_label: str, y_label: str, *, log: bool = Fal
         dashes = ' stroke-dasharray="5 4"' if curve.dashed else ""
         parts.append(f'<polyline points="{path}" {style}{dashes}/>')
         below = TOP + 16 * number + 8
-        parts.append(f'<path d="M{WIDTH - 190} {below}h26" {style}{dashes}/>')
-        parts.append(f'<text x="{WIDTH - 158}" y="{below + 4}">{escape(curve.label)}</text>')
+        parts.append(f'<path d="M{WIDTH - RIGHT + 10} {below}h26" {style}{dashes}/>')
+        parts.append(f'<text x="{WIDTH - RIGHT + 42}" y="{below + 4}">{escape(curve.label)}</text>')
     middle = (LEFT + WIDTH - RIGHT) // 2
     parts.append(
         f'<text x="{middle}" y="{HEIGHT - 8}" text-anchor="middle">{escape(x_label)}</text>'
@@ -75,7 +76,7 @@ def _ticks(low: float, high: float, *, log: bool) -> list[float]:
     raw = (high - low) / 5
     power = 10 ** math.floor(math.log10(raw))
     step = next(power * m for m in (1, 2, 5, 10) if power * m >= raw)
-    # Exponents are whole.
-    step = max(1.0, round(step)) if log else step
+    # Exponents are whole where there are enough decades.
+    step = max(1.0, round(step)) if log and high - low > 3 else step
     first = math.ceil(low / step - 1e-9)
     return [n * step for n in range(first, math.floor(high / step + 1e-9) + 1)]

@@ -164,7 +164,7 @@ impl Forest {
             let lives = |cluster: u32| self.parent[cluster as usize] == cluster;
             if lives(one) && lives(other) {
                 self.merge(one, other);
-                if self.alive % STRIDE == 0 {
+                if self.alive.is_multiple_of(STRIDE) {
                     context.step("segment", 1.0 - self.alive as f64 / first as f64)?;
                 }
             }

@@ -6,6 +6,7 @@
 //! where its neighbours are on the mean.
 
 mod fold;
+mod free;
 mod offset;
 mod place;
 mod shared;
@@ -47,7 +48,8 @@ impl Task<'_> {
 /// The positions of all vertices without the noise; `labels` are places in `surfaces`, which are in
 /// the units of the mesh, as `sigma` is.
 ///
-/// Vertices of free-form regions and of faces without a label stay.
+/// In free-form regions vertices go to a smooth piece of their neighbours; those on the border of such a
+/// region and those of faces without a label stay, where no other region has them.
 ///
 /// # Errors
 /// [`Error::Option`] if there is not one label a face, a label has no surface, or sigma is no length.
@@ -82,6 +84,9 @@ pub fn denoise(
     let moved: Vec<Point> = (0..mesh.positions.len())
         .into_par_iter()
         .map_init(offset::Search::default, |search, vertex| {
+            if regions[vertex].is_empty() {
+                return free::place(&task, vertex as u32, reach);
+            }
             let goal = |&region: &u32| place::Goal {
                 surface: &surfaces[region as usize],
                 offset: offsets.at(&task, vertex as u32, region, search),

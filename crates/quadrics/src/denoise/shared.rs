@@ -24,7 +24,7 @@ pub fn take_back(task: &Task, moved: Vec<Point>, regions: &[Vec<u32>], reach: f6
         let own = |vertex: usize| {
             let at = &regions[vertex];
             if at.is_empty() {
-                return Vector::zeros();
+                return ways[vertex];
             }
             let mut near = near(task, vertex as u32, scale, regions);
             let common = |near: &[u32]| {

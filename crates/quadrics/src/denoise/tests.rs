@@ -69,14 +69,20 @@ fn a_clean_mesh_stays_and_no_face_turns_over() {
 }
 
 #[test]
-fn free_form_regions_and_bare_faces_stay() {
-    let part = synth::part("open", 3_000).unwrap();
+fn free_form_regions_become_smooth_and_bare_faces_stay() {
+    let part = synth::part("quadrics", 12_000).unwrap();
+    let noise = Noise::uniform(0.003, 0.9);
+    let noisy = synth::add_noise(&mut Context::new(1), &part.mesh, &noise).unwrap();
+    let sigma = spread(&noise, part.mesh.size());
     let free = vec![Surface::FreeForm; part.surfaces.len()];
-    let same = denoise(&part.mesh, &part.labels, &free, 1.0).unwrap();
-    assert_eq!(same, part.mesh.positions);
+    let positions = denoise(&noisy, &part.labels, &free, sigma).unwrap();
+    let clean = Mesh { positions, faces: noisy.faces.clone() };
+    let before = deviation(&noisy, &part.mesh).unwrap();
+    let after = deviation(&clean, &part.mesh).unwrap();
+    assert!(after.mean < 0.6 * before.mean, "{} {}", after.mean, before.mean);
     let bare = vec![UNLABELLED; part.labels.len()];
-    assert_eq!(denoise(&part.mesh, &bare, &[], 1.0).unwrap(), part.mesh.positions);
-    assert!(denoise(&part.mesh, &part.labels, &[], 1.0).is_err());
-    assert!(denoise(&part.mesh, &part.labels[1..], &free, 1.0).is_err());
-    assert!(denoise(&part.mesh, &part.labels, &free, f64::NAN).is_err());
+    assert_eq!(denoise(&noisy, &bare, &[], 1.0).unwrap(), noisy.positions);
+    assert!(denoise(&noisy, &part.labels, &[], 1.0).is_err());
+    assert!(denoise(&noisy, &part.labels[1..], &free, 1.0).is_err());
+    assert!(denoise(&noisy, &part.labels, &free, f64::NAN).is_err());
 }

@@ -5,6 +5,7 @@
 
 mod cone;
 mod cylinder;
+pub mod height_field;
 pub mod kind;
 mod local;
 pub mod moments;

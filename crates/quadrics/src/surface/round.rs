@@ -51,8 +51,7 @@ fn fit(region: &Normalised, axes: &[Vector]) -> Option<(Point, f64, f64)> {
     let constant = solution[n - 1];
     let middle: Vector = axes.iter().zip(solution.iter()).map(|(a, b)| a * (-b / 2.0)).sum();
     let squared_radius = middle.norm_squared() - constant;
-    // Written so that NaN is refused too.
-    if !(squared_radius > 0.0) {
+    if squared_radius.is_nan() || squared_radius <= 0.0 {
         return None;
     }
     let f = square + basis.iter().zip(solution.iter()).map(|(b, s)| b * *s).sum::<SVector<_, 10>>();
