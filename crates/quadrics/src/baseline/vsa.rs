@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::mesh::Working;
 use crate::options::{Options, Seeds};
 use crate::partition::Labels;
-use crate::segment::{Metric, Outcome, State, Task, adjust};
+use crate::segment::{Metric, Outcome, Task};
 
 /// Segments a mesh in the unit cube into `options.regions` planar regions.
 ///
@@ -27,9 +27,7 @@ pub fn vsa(
     let options = Options { seeds: Seeds::Triangle, merge_angle_deg: 0.0, ..options.clone() };
     let task = Task { working, options: &options, metric: Metric::Normals };
     context.timed("segment", |context| {
-        let labels = labels.unwrap_or_else(|| start::random(context, &task, regions));
-        let first = State::new(&task, &labels)?;
-        let first = adjust(context, &task, first)?;
+        let first = start::first(context, &task, labels, regions)?;
         let before = common_energy(&task, &first);
         let (best, _) = teleport::converge(context, &task, first)?;
         let after = common_energy(&task, &best);
