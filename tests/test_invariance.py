@@ -40,7 +40,9 @@ def types(result: quadrics.Result) -> list[str]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES or [pytest.param("", marks=pytest.mark.skip("no ../shared"))])
+@pytest.mark.parametrize(
+    "name", NAMES or [pytest.param("", marks=pytest.mark.skip("no ../shared"))]
+)
 def test_order_place_attitude_and_size_do_not_matter(name: str) -> None:
     mesh = quadrics.read(PARTS / name / "mesh.ply")
     positions, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from quadrics import synth
+    from quadrics.denoising import Deviation, denoise, deviation
     from quadrics.errors import InputError, OptionError, OutputError, QuadricsError
+    from quadrics.evaluation import Evaluation, Match, evaluate
     from quadrics.mesh import Mesh, as_mesh, read
     from quadrics.options import Options
     from quadrics.result import Noise, Region, Relation, Repair, Result
@@ -32,6 +34,12 @@ if TYPE_CHECKING:
 # In reading order: the main job, what goes in, what comes out, what may go wrong.
 _HOME = {
     "segment": "run",
+    "evaluate": "evaluation",
+    "Evaluation": "evaluation",
+    "Match": "evaluation",
+    "denoise": "denoising",
+    "deviation": "denoising",
+    "Deviation": "denoising",
     "Options": "options",
     "Mesh": "mesh",
     "as_mesh": "mesh",
@@ -59,8 +67,11 @@ _HOME = {
 __all__ = [
     "Cone",
     "Cylinder",
+    "Deviation",
+    "Evaluation",
     "FreeForm",
     "InputError",
+    "Match",
     "Mesh",
     "Noise",
     "OptionError",
@@ -78,6 +89,9 @@ __all__ = [
     "Torus",
     "__version__",
     "as_mesh",
+    "denoise",
+    "deviation",
+    "evaluate",
     "read",
     "segment",
     "synth",

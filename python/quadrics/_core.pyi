@@ -1,5 +1,5 @@
 from collections.abc import Callable
-from typing import Any, TypedDict
+from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,10 @@ __all__ = [
     "coefficients",
     "default_options",
     "default_scanner",
+    "denoise",
+    "deviation",
     "distance",
+    "evaluate",
     "inspect",
     "noise",
     "normal",
@@ -59,6 +62,33 @@ def segment(
     initial_labels: NDArray[np.uint32] | None = None,
     progress: Callable[[str, float], object] | None = None,
 ) -> _Segmentation: ...
+
+_Flat: TypeAlias = tuple[str, list[float]]
+_Side: TypeAlias = tuple[
+    NDArray[np.int32], list[tuple[str, _Flat | None, tuple[str, _Flat] | None]]
+]
+
+def evaluate(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    found: _Side,
+    truth: _Side,
+    tolerance: float,
+    beta: float,
+) -> dict[str, Any]: ...
+def denoise(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    labels: NDArray[np.int32],
+    surfaces: list[_Flat | None],
+    sigma: float,
+) -> NDArray[np.float64]: ...
+def deviation(
+    positions: NDArray[np.float64],
+    faces: NDArray[np.uint32],
+    reference_positions: NDArray[np.float64],
+    reference_faces: NDArray[np.uint32],
+) -> dict[str, Any]: ...
 def part_names() -> list[str]: ...
 def part(name: str, faces: int) -> dict[str, Any]: ...
 def default_scanner() -> dict[str, Any]: ...
@@ -76,6 +106,7 @@ def noise(
     faces: NDArray[np.uint32],
     sigma: float,
     ratio: float,
+    gaussian: bool,
     seed: int,
 ) -> NDArray[np.float64]: ...
 def default_options() -> dict[str, Any]: ...

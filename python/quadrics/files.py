@@ -88,12 +88,13 @@ def read_bytes(path: Path) -> bytes:
 
 #: Endings of the names of files that can be written.
 WRITABLE = (".ply", ".stl", ".obj", ".off")
+PICTURES = (".png",)
 
 
-def check_target(path: Path, *, overwrite: bool) -> None:
+def check_target(path: Path, *, overwrite: bool, endings: tuple[str, ...] = WRITABLE) -> None:
     """Refuse a file that cannot be written, before the work is done."""
-    if path.suffix.lower() not in WRITABLE:
-        raise OutputError(f"{path}: cannot be written: end its name in {', '.join(WRITABLE)}")
+    if path.suffix.lower() not in endings:
+        raise OutputError(f"{path}: cannot be written: end its name in {', '.join(endings)}")
     if path.is_dir():
         raise OutputError(f"{path}: is a folder; name a file")
     if path.exists() and not overwrite:
@@ -103,9 +104,19 @@ def check_target(path: Path, *, overwrite: bool) -> None:
 
 
 def save(mesh: Mesh, path: Path, *, overwrite: bool) -> None:
-    """Write a mesh beside `path`, then rename it: the file appears whole, or not at all."""
+    """Write a mesh; the file appears whole, or not at all."""
     check_target(path, overwrite=overwrite)
-    content = _core.write(path.suffix[1:], mesh.vertices, mesh.faces)
+    write_whole(path, _core.write(path.suffix[1:], mesh.vertices, mesh.faces))
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file beside `path`, then rename it: it appears whole, or not at all.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
     try:
         try:

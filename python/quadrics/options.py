@@ -17,8 +17,12 @@ class Options:
 
     Parameters
     ----------
+    method : {"quadrics", "vsa", "qsf", "hfp", "ransac"}
+        Ours, as the preset says, or one to compare it with: variational shape approximation by
+        planes, quadric surface fitting from random seeds, hierarchical fitting of primitives (these
+        three need the number of regions), or the detection of the paper without its loop.
     preset : {"default", "paper"}
-        Method: the best that we know, or section 4 of the paper to the letter.
+        Method of ours: the best that we know, or section 4 of the paper to the letter.
     regions : int or None
         Number of regions to end with (the paper's kappa); found from the data when not given.
     constraints : bool
@@ -55,6 +59,7 @@ class Options:
         The loop ends when the energy changes by less than this fraction.
     """
 
+    method: Literal["quadrics", "vsa", "qsf", "hfp", "ransac"] = "quadrics"
     preset: Literal["default", "paper"] = "default"
     regions: int | None = None
     constraints: bool = True
@@ -97,7 +102,11 @@ class Options:
 
 _OPTIONAL = ("regions", "insertion_threshold")
 #: Fields that are one of a few words.
-CHOICES = {"preset": ("default", "paper"), "seeds": ("region", "triangle")}
+CHOICES = {
+    "method": ("quadrics", "vsa", "qsf", "hfp", "ransac"),
+    "preset": ("default", "paper"),
+    "seeds": ("region", "triangle"),
+}
 #: Fields that are whole numbers.
 WHOLE = ("regions", "seed", "threads", "tau", "seed_candidates", "max_iterations")
 #: Least and greatest value of every number.

@@ -13,6 +13,7 @@ from quadrics import _core
 from quadrics.surfaces import FreeForm
 
 if TYPE_CHECKING:
+    from quadrics.mesh import Mesh
     from quadrics.result import Result
 
 #: Pixels of one of the two views.
@@ -27,14 +28,21 @@ def write_picture(path: Path, result: Result) -> None:
     """Draw both views and write the PNG; the same result gives the same bytes."""
     from PIL import Image
 
-    mesh, labels = result.mesh, result.triangle_labels
-    plain = np.tile(np.array(GREY, np.uint8), (len(mesh.faces), 1))
-    scan = _draw(result, plain, mesh.normals(), np.zeros_like(labels))
+    Image.fromarray(np.hstack([plain_view(result.mesh), region_view(result)])).save(path, "PNG")
+
+
+def plain_view(mesh: Mesh) -> NDArray[np.uint8]:
+    """Draw a mesh in grey: pixels (HEIGHT, WIDTH, 3)."""
+    grey = np.tile(np.array(GREY, np.uint8), (len(mesh.faces), 1))
+    return _draw(mesh, grey, mesh.normals(), np.zeros(len(mesh.faces), np.int32))
+
+
+def region_view(result: Result) -> NDArray[np.uint8]:
+    """Draw the regions in colours, with the normals of their surfaces."""
     if len(result.regions) == 0:
-        found = scan
-    else:
-        found = _draw(result, region_colours(result)[labels], _surface_normals(result), labels)
-    Image.fromarray(np.hstack([scan, found])).save(path, format="PNG")
+        return plain_view(result.mesh)
+    labels = result.triangle_labels
+    return _draw(result.mesh, region_colours(result)[labels], _surface_normals(result), labels)
 
 
 def region_colours(result: Result) -> NDArray[np.uint8]:
@@ -54,12 +62,11 @@ def _colour(number: int) -> tuple[int, int, int]:
 
 
 def _draw(
-    result: Result,
+    mesh: Mesh,
     colours: NDArray[np.uint8],
     normals: NDArray[np.float64],
     labels: NDArray[np.int32],
 ) -> NDArray[np.uint8]:
-    mesh = result.mesh
     return _core.render(
         mesh.vertices, mesh.faces, colours, normals, labels, TOWARD_EYE, WIDTH, HEIGHT
     )

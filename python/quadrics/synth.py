@@ -109,8 +109,15 @@ def scan(
     )
 
 
-def noise(source: MeshLike, *, sigma: float = 0.01, ratio: float = 0.9, seed: int = 0) -> Mesh:
-    """Add the noise of eq. 5 of the paper: v + sigma omega n_v, omega uniform in [-1, 1].
+def noise(
+    source: MeshLike,
+    *,
+    sigma: float = 0.01,
+    ratio: float = 0.9,
+    gaussian: bool = False,
+    seed: int = 0,
+) -> Mesh:
+    """Add the noise of the paper: v + sigma omega n_v, omega uniform in [-1, 1] (eq. 5).
 
     Parameters
     ----------
@@ -120,6 +127,8 @@ def noise(source: MeshLike, *, sigma: float = 0.01, ratio: float = 0.9, seed: in
         Largest displacement, as a fraction of the longest side of the bounding box.
     ratio : float
         Share of the vertices that move, from 0 to 1.
+    gaussian : bool
+        Omega is Gaussian with standard deviation 1, as in section 5.5 of the paper.
     seed : int
         Seed of every draw.
     """
@@ -129,7 +138,7 @@ def noise(source: MeshLike, *, sigma: float = 0.01, ratio: float = 0.9, seed: in
         raise OptionError(f"ratio is {ratio}: give a number from 0 to 1")
     mesh = as_mesh(source)
     with located(mesh):
-        moved = _core.noise(mesh.vertices, mesh.faces, sigma, ratio, _seed(seed))
+        moved = _core.noise(mesh.vertices, mesh.faces, sigma, ratio, gaussian, _seed(seed))
     return replace(mesh, vertices=moved)
 
 

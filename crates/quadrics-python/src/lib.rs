@@ -1,7 +1,9 @@
 //! What Python sees of the core: arrays in, values out, the interpreter free meanwhile.
 
 mod context;
+mod denoise;
 mod error;
+mod evaluate;
 mod mesh;
 mod picture;
 mod segment;
@@ -20,6 +22,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(mesh::write_segmentation, module)?)?;
     module.add_function(wrap_pyfunction!(segment::segment, module)?)?;
     module.add_function(wrap_pyfunction!(segment::default_options, module)?)?;
+    module.add_function(wrap_pyfunction!(denoise::denoise, module)?)?;
+    module.add_function(wrap_pyfunction!(denoise::deviation, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(surface::distance, module)?)?;
     module.add_function(wrap_pyfunction!(surface::normal, module)?)?;
     module.add_function(wrap_pyfunction!(surface::project, module)?)?;

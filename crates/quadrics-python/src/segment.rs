@@ -4,7 +4,7 @@ use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use quadrics::options::{Preset, Seeds};
+use quadrics::options::{Method, Preset, Seeds};
 use quadrics::result::{Region, Relation, Segmentation, Side};
 use quadrics::{Options, pipeline};
 
@@ -54,6 +54,7 @@ macro_rules! by_name {
 }
 
 by_name!(
+    method,
     preset,
     regions,
     constraints,
@@ -114,6 +115,13 @@ macro_rules! choice {
     };
 }
 
+choice!(Method {
+    Quadrics = "quadrics",
+    Vsa = "vsa",
+    Qsf = "qsf",
+    Hfp = "hfp",
+    Ransac = "ransac"
+});
 choice!(Preset { Default = "default", Paper = "paper" });
 choice!(Seeds { Region = "region", Triangle = "triangle" });
 

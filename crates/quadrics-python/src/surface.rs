@@ -69,6 +69,9 @@ fn describe_quadric(dict: &Bound<'_, PyDict>, quadric: &Quadric, size: f64) -> P
     dict.set_item("semi_axes", (!kind.semi_axes.is_empty()).then_some(kind.semi_axes))
 }
 
+/// A type name and the parameters, flat.
+pub type Flat = (String, Vec<f64>);
+
 /// The surface with these parameters.
 pub fn build(kind: &str, numbers: &[f64]) -> PyResult<Surface> {
     let at = |i: usize| Point::new(numbers[i], numbers[i + 1], numbers[i + 2]);

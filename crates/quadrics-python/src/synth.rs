@@ -4,7 +4,7 @@ use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use quadrics::Context;
-use quadrics::synth::{self, Noise, Part, Scanner};
+use quadrics::synth::{self, Distribution, Noise, Part, Scanner};
 
 use crate::error::to_python;
 use crate::mesh::{mesh_from, rows_of_three};
@@ -73,7 +73,7 @@ pub fn default_scanner(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(dict)
 }
 
-/// New positions of the vertices of a mesh, with the noise of eq. 5.
+/// New positions of the vertices of a mesh, with the noise of eq. 5 or of section 5.5.
 #[pyfunction]
 pub fn noise<'py>(
     py: Python<'py>,
@@ -81,11 +81,13 @@ pub fn noise<'py>(
     faces: PyReadonlyArray2<'py, u32>,
     sigma: f64,
     ratio: f64,
+    gaussian: bool,
     seed: u64,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let mesh = mesh_from(py, &positions, &faces)?;
-    let noisy = py
-        .detach(|| synth::add_noise(&mut Context::new(seed), &mesh, &Noise::uniform(sigma, ratio)));
+    let distribution = if gaussian { Distribution::Gaussian } else { Distribution::Uniform };
+    let noise = Noise { sigma, ratio, distribution };
+    let noisy = py.detach(|| synth::add_noise(&mut Context::new(seed), &mesh, &noise));
     let noisy = noisy.map_err(|error| to_python(py, &error))?;
     let positions = noisy.positions.iter().flat_map(|p| [p.x, p.y, p.z]).collect();
     Ok(rows_of_three(positions).into_pyarray(py))

@@ -2,11 +2,14 @@
 
 #![forbid(unsafe_code)]
 
+pub mod baseline;
 pub mod constrain;
 pub mod context;
+pub mod denoise;
 pub mod describe;
 pub mod detect;
 pub mod error;
+pub mod evaluate;
 pub mod format;
 pub mod math;
 pub mod mesh;

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 
-/// Which method runs.
+/// Which of our methods runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Preset {
     /// The best that we know: no parameter depends on scale, surfaces are typed in the loop.
@@ -10,6 +10,22 @@ pub enum Preset {
     Default,
     /// Section 4 of the paper to the letter.
     Paper,
+}
+
+/// Whose method runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Ours: what [`Options::preset`] says.
+    #[default]
+    Quadrics,
+    /// Variational shape approximation (Cohen-Steiner, Alliez, Desbrun 2004): planes.
+    Vsa,
+    /// Variational mesh segmentation via quadric surface fitting (Yan et al. 2012).
+    Qsf,
+    /// Hierarchical fitting of primitives (Attene, Falcidieno, Spagnuolo 2006).
+    Hfp,
+    /// The detection of the paper alone, without the loop.
+    Ransac,
 }
 
 /// Where a region starts to grow from in the paper's partitioning (4.3(1)).
@@ -25,7 +41,9 @@ pub enum Seeds {
 /// All options of a segmentation. Lengths are fractions of the longest side of the part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// Which method runs.
+    /// Whose method runs: ours, or one that it is compared with.
+    pub method: Method,
+    /// Which of our methods runs.
     pub preset: Preset,
     /// Number of regions to end with (the paper's κ); found from the data when `None`.
     pub regions: Option<usize>,
@@ -66,6 +84,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
+            method: Method::Quadrics,
             preset: Preset::Default,
             regions: None,
             constraints: true,

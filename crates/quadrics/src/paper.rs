@@ -8,7 +8,7 @@ use crate::options::Options;
 use crate::partition::Labels;
 use crate::prepare::{labels_back, subdivide, to_unit_cube};
 use crate::result::Repair;
-use crate::segment;
+use crate::segment::{self, Outcome};
 use crate::surface::Surface;
 
 /// What the paper's method finds, on the faces and in the units of the input.
@@ -34,6 +34,26 @@ pub fn paper(
     options: &Options,
     initial_labels: Option<&[u32]>,
 ) -> Result<Found> {
+    in_cube(context, mesh, options, initial_labels, |context, working, start| {
+        let start = match start {
+            Some(labels) => labels,
+            None => context.timed("detect", |c| detect::detect(c, working, options))?,
+        };
+        context.timed("segment", |c| segment::paper(c, working, options, &start))
+    })
+}
+
+/// A method on the subdivided mesh in the unit cube, and the way back to the faces of the input.
+///
+/// # Errors
+/// Those of the method, and what is wrong with mesh or options.
+pub fn in_cube(
+    context: &mut Context,
+    mesh: &Mesh,
+    options: &Options,
+    initial_labels: Option<&[u32]>,
+    method: impl FnOnce(&mut Context, &Working, Option<Labels>) -> Result<Outcome>,
+) -> Result<Found> {
     if initial_labels.is_some_and(|labels| labels.len() != mesh.faces.len()) {
         let faces = mesh.faces.len();
         return Err(Error::Option(format!("initial labels: one for each of {faces} faces")));
@@ -45,11 +65,9 @@ pub fn paper(
         let fine = subdivide(cube, options.max_edge)?;
         Ok((Working::new(fine.mesh), fine.parents))
     })?;
-    let start = match initial_labels {
-        Some(labels) => parents.iter().map(|&parent| labels[parent as usize]).collect(),
-        None => context.timed("detect", |c| detect::detect(c, &working, options))?,
-    };
-    let outcome = context.timed("segment", |c| segment::paper(c, &working, options, &start))?;
+    let start = initial_labels
+        .map(|labels| parents.iter().map(|&parent| labels[parent as usize]).collect());
+    let outcome = method(context, &working, start)?;
     let input = Working::new(mesh.clone());
     let back = labels_back(
         &outcome.labels,

@@ -1,12 +1,13 @@
 //! The stations in order, nothing else.
 
+use crate::baseline::baseline;
 use crate::constrain::{Constrained, Link, constrain};
 use crate::context::Context;
 use crate::describe::{Recognised, describe, fit_all};
 use crate::error::{Error, Result};
 use crate::math::Similarity;
 use crate::mesh::{Mesh, Working, repair};
-use crate::options::{Options, Preset};
+use crate::options::{Method, Options, Preset};
 use crate::paper::paper;
 use crate::partition::{Labels, Regions, UNLABELLED, compact, hand_out, separate};
 use crate::prepare::{in_own_cube, in_unit_cube, labels_back, subdivide};
@@ -42,17 +43,20 @@ fn run(
     options: &Options,
     initial_labels: Option<&[u32]>,
 ) -> Result<Segmentation> {
-    let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh, options.preset))?;
+    let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh, options))?;
     let Clean { cube, parent, representative, out } = clean;
     let start = initial_labels.map(|labels| start(labels, mesh, &parent, &cube)).transpose()?;
-    let mut found = match options.preset {
-        Preset::Default => by_default(context, &cube, options, start.as_deref())?,
-        Preset::Paper => by_paper(context, &cube, options, start.as_deref())?,
+    let mut found = match (options.method, options.preset) {
+        (Method::Quadrics, Preset::Default) => {
+            by_default(context, &cube, options, start.as_deref())?
+        }
+        _ => by_paper(context, &cube, options, start.as_deref())?,
     };
     // On scans surfaces that hold still tear regions; a number that was asked for stays.
     let regular = found.evidence.independent == 1.0 && options.regions.is_none();
     let fine = options.preset == Preset::Default && cube.len() >= FEW_FACES;
-    if options.constraints && regular && fine {
+    let constraints = options.constraints && options.method == Method::Quadrics;
+    if constraints && regular && fine {
         regroup(context, &cube, &mut found)?;
     }
     let (labels, former) = to_input(&found.labels, &representative);
@@ -63,7 +67,7 @@ fn run(
     scene.evidence = found.evidence;
     let mut fits =
         context.timed("describe", |context| fit_all(context, &scene, &on_clean, &surfaces))?;
-    let relations = if options.constraints {
+    let relations = if constraints {
         context.timed("constrain", |_| Ok(constrained(&mut fits, &out)))?
     } else {
         Vec::new()
@@ -151,12 +155,12 @@ struct Clean {
 }
 
 impl Clean {
-    fn new(mesh: &Mesh, preset: Preset) -> Result<(Self, Vec<Repair>)> {
+    fn new(mesh: &Mesh, options: &Options) -> Result<(Self, Vec<Repair>)> {
         let repaired = repair(mesh)?;
         // The paper's unit cube is that of the input's axes.
-        let (mesh, former, into) = match preset {
-            Preset::Default => in_own_cube(repaired.mesh)?,
-            Preset::Paper => in_unit_cube(repaired.mesh)?,
+        let (mesh, former, into) = match (options.method, options.preset) {
+            (Method::Quadrics, Preset::Default) => in_own_cube(repaired.mesh)?,
+            _ => in_unit_cube(repaired.mesh)?,
         };
         let mut new = vec![0; former.len()];
         former.iter().zip(0..).for_each(|(&old, face)| new[old as usize] = face);
@@ -225,7 +229,10 @@ fn by_paper(
     options: &Options,
     start: Option<&[u32]>,
 ) -> Result<Found> {
-    let found = paper(context, &cube.mesh, options, start)?;
+    let found = match options.method {
+        Method::Quadrics => paper(context, &cube.mesh, options, start)?,
+        _ => baseline(context, &cube.mesh, options, start)?,
+    };
     let evidence = context.timed("noise", |context| {
         let mut scene = Scene::new(&cube.mesh);
         evidence::measure(context, &mut scene)?;

@@ -9,13 +9,20 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from quadrics.cli import info, noise, segment
+from quadrics.cli import denoise, evaluate, info, noise, reproduce, segment
 from quadrics.errors import InputError, OptionError, OutputError
 
 #: What a shell and a scheduler see.
 DONE, FAULT, USAGE, INPUT, OUTPUT, INTERRUPTED = 0, 1, 2, 3, 4, 130
 
-COMMANDS = {"segment": segment, "info": info, "noise": noise}
+COMMANDS = {
+    "segment": segment,
+    "info": info,
+    "noise": noise,
+    "evaluate": evaluate,
+    "denoise": denoise,
+    "reproduce": reproduce,
+}
 
 EXAMPLES = """\
 examples:

@@ -3,12 +3,11 @@
 //! Residuals of height fields of second degree over small neighbourhoods. Creases inflate most of
 //! them, so a low quantile speaks for the mesh; on a clean mesh it is zero.
 
-use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
-use crate::math::{Point, Vector, frame};
+use crate::math::Point;
 use crate::mesh::{Adjacency, Mesh};
-use crate::surface::{Samples, Surface, start};
+use crate::surface::height_field::HeightField;
 
 /// Neighbourhoods that are looked at.
 const NEIGHBOURHOODS: usize = 600;
@@ -57,33 +56,7 @@ fn residual(points: &[Point]) -> Option<f64> {
     if points.len() < 12 {
         return None;
     }
-    let Surface::Plane(base) = start::plane(Samples { points, barycentres: &[], normals: &[] })?
-    else {
-        return None;
-    };
-    let center = crate::surface::centroid(points)?;
-    let (u, v) = frame(&base.normal);
-    let spread = points.iter().map(|p| (p - center).norm_squared()).sum::<f64>();
-    let scale = (spread / points.len() as f64).sqrt();
-    let row = |d: Vector| {
-        let (x, y) = (u.dot(&d) / scale, v.dot(&d) / scale);
-        SVector::<f64, 6>::from([1.0, x, y, x * x, x * y, y * y])
-    };
-    let mut matrix = SMatrix::<f64, 6, 6>::zeros();
-    let mut right = SVector::<f64, 6>::zeros();
-    for p in points {
-        let d = p - center;
-        let row = row(d);
-        matrix += row * row.transpose();
-        right += row * base.normal.dot(&d);
-    }
-    let c = matrix.cholesky()?.solve(&right);
-    let cost: f64 = points
-        .iter()
-        .map(|p| {
-            let d = p - center;
-            (base.normal.dot(&d) - c.dot(&row(d))).powi(2)
-        })
-        .sum();
-    Some((cost / (points.len() - 6) as f64).sqrt())
+    let field = HeightField::fit(points)?;
+    let cost: f64 = points.iter().map(|p| field.above(*p).powi(2)).sum();
+    Some((cost / (points.len() - HeightField::PARAMETERS) as f64).sqrt())
 }

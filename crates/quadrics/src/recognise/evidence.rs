@@ -83,8 +83,9 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
     Ok(())
 }
 
-/// How much coarser the next scale is, and the coarsest, in sizes: beyond it all evidence is noise.
+/// How much coarser the next scale is.
 const COARSER: f64 = 3.0;
+/// The coarsest scale, in sizes: beyond it all evidence is noise.
 pub const COARSEST: f64 = 1e-3;
 
 /// Raises sigma until it explains most of the mesh.

@@ -104,7 +104,7 @@ fn borders(scene: &Scene, models: &[Model], labels: &[u32]) -> Vec<Border> {
             edges.push((label, other, (a - b).norm(), turn));
         }
     }
-    edges.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+    edges.sort_by_key(|edge| (edge.0, edge.1));
     let limit = 2.0 - 2.0 * TANGENT_DEG.to_radians().cos();
     let border = |same: &[(u32, u32, f64, f64)]| {
         let length: f64 = same.iter().map(|e| e.2).sum();

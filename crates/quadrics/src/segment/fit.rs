@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use super::Task;
 use super::energy::Proxy;
+use super::{Metric, Task};
 use crate::math::{Point, Unit, Vector};
 use crate::surface::moments::Moments;
 use crate::surface::planarity::Spread;
@@ -91,6 +91,12 @@ impl Patch {
     pub fn proxy<'f>(&self, task: &Task, faces: impl Fn() -> FaceIter<'f>) -> Proxy {
         // Faces without area lie anywhere in space: any plane through them does.
         let any = || Plane::through(Point::origin(), Unit::new_unchecked(Vector::z()));
+        if task.metric == Metric::Normals {
+            // The mean normal is optimal for L2,1 (Cohen-Steiner et al. 2004, section 3.2).
+            let normal = Unit::try_new(self.moments.oriented_area(), f64::MIN_POSITIVE);
+            let plane = normal.map(|n| Plane::through(self.moments.centroid(), n));
+            return Proxy::Plane(plane.unwrap_or_else(any));
+        }
         let plane = taubin::plane(&self.moments).unwrap_or_else(any);
         if self.spread.planarity() < task.options.planarity {
             return Proxy::Plane(plane);

@@ -92,7 +92,7 @@ fn without(seed: &[u32], face: u32, region: &Fitted) -> Vec<u32> {
 }
 
 /// The plane of one face.
-fn tangent(task: &Task, face: u32) -> Plane {
+pub fn tangent(task: &Task, face: u32) -> Plane {
     let geometry = &task.working.geometry;
     // A face without area has no normal: any plane through it does.
     let normal = Unit::try_new(geometry.normals[face as usize], 0.5).unwrap_or_else(Vector::z_axis);

@@ -5,10 +5,10 @@
 //! one `merge` and `insert` bring the number of regions to the one that is wanted.
 
 mod energy;
-mod fit;
-mod flood;
-mod insert;
-mod merge;
+pub(crate) mod fit;
+pub(crate) mod flood;
+pub(crate) mod insert;
+pub(crate) mod merge;
 mod queue;
 mod seeds;
 
@@ -40,35 +40,63 @@ pub struct Outcome {
     pub energy: Vec<f64>,
 }
 
+/// What a face costs under a proxy, and so which proxies there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Metric {
+    /// Eq. 2, with planes and quadrics.
+    Surfaces,
+    /// L2,1 alone, with planes: the deviation of normals, as in VSA.
+    Normals,
+}
+
 /// What stays the same during a run.
-struct Task<'a> {
-    working: &'a Working,
-    options: &'a Options,
+pub(crate) struct Task<'a> {
+    pub working: &'a Working,
+    pub options: &'a Options,
+    pub metric: Metric,
 }
 
 impl Task<'_> {
-    /// `E(t, P)` of eq. 2.
-    fn error(&self, proxy: &Proxy, face: u32) -> f64 {
+    /// `E(t, P)` of the metric.
+    pub fn error(&self, proxy: &Proxy, face: u32) -> f64 {
         let (face, geometry) = (face as usize, &self.working.geometry);
+        if let (Metric::Normals, Proxy::Plane(plane)) = (self.metric, proxy) {
+            let deviation = plane.normal.into_inner() - geometry.normals[face];
+            return geometry.areas[face] * deviation.norm_squared();
+        }
         let corners = self.working.mesh.corners(face);
         proxy.error(corners, geometry.normals[face], geometry.areas[face], self.options.beta)
     }
 
-    fn total_error(&self, proxy: &Proxy, faces: &[u32]) -> f64 {
+    pub fn total_error(&self, proxy: &Proxy, faces: &[u32]) -> f64 {
         faces.iter().map(|&face| self.error(proxy, face)).sum()
     }
 }
 
 /// A partition with its proxies.
 #[derive(Clone)]
-struct State {
-    labels: Labels,
-    regions: Vec<Fitted>,
+pub(crate) struct State {
+    pub labels: Labels,
+    pub regions: Vec<Fitted>,
 }
 
 impl State {
-    fn energy(&self) -> f64 {
+    /// The regions of a start, fitted: what is not connected counts as several.
+    pub fn new(task: &Task, start: &[u32]) -> Result<Self> {
+        let labels = connected(task.working, start)?;
+        let regions = fit_all(task, faces_of(&labels), &[]);
+        Ok(Self { labels, regions })
+    }
+
+    /// Eq. 1, in the metric of the task.
+    pub fn energy(&self) -> f64 {
         self.regions.iter().map(|region| region.error).sum()
+    }
+
+    /// As a result, with the energies on the way to it.
+    pub fn outcome(self, energy: Vec<f64>) -> Outcome {
+        let proxies = self.regions.into_iter().map(|region| region.proxy).collect();
+        Outcome { labels: self.labels, proxies, energy }
     }
 }
 
@@ -89,15 +117,19 @@ pub fn paper(
     if working.is_empty() {
         return Err(Error::Empty);
     }
-    let task = Task { working, options };
-    let labels = connected(working, start)?;
-    let regions = fit_all(&task, faces_of(&labels), &[]);
-    let state = adjust(context, &task, State { labels, regions })?;
-    lloyd(context, &task, state)
+    let task = Task { working, options, metric: Metric::Surfaces };
+    let start = State::new(&task, start)?;
+    let state = adjust(context, &task, start)?;
+    let (best, energy) = lloyd(context, &task, state)?;
+    Ok(best.outcome(energy))
 }
 
-/// Lloyd's iteration; the best partition seen is the result.
-fn lloyd(context: &mut Context, task: &Task, mut state: State) -> Result<Outcome> {
+/// Lloyd's iteration: the best partition seen, and the energy of the start and after every round.
+pub(crate) fn lloyd(
+    context: &mut Context,
+    task: &Task,
+    mut state: State,
+) -> Result<(State, Vec<f64>)> {
     let mut energy = vec![state.energy()];
     let (mut best, mut best_round) = (state.clone(), 0);
     let mut seen = HashSet::from([fingerprint(&state.labels)]);
@@ -118,8 +150,7 @@ fn lloyd(context: &mut Context, task: &Task, mut state: State) -> Result<Outcome
             break;
         }
     }
-    let proxies = best.regions.into_iter().map(|region| region.proxy).collect();
-    Ok(Outcome { labels: best.labels, proxies, energy })
+    Ok((best, energy))
 }
 
 /// Partitioning, then surface fitting.
@@ -134,7 +165,7 @@ fn round_of(task: &Task, state: State) -> State {
 }
 
 /// Brings the number of regions to the one that is wanted, by merging and insertion.
-fn adjust(context: &mut Context, task: &Task, state: State) -> Result<State> {
+pub(crate) fn adjust(context: &mut Context, task: &Task, state: State) -> Result<State> {
     let State { mut labels, mut regions } = state;
     if let Some(limit) = task.options.insertion_threshold {
         while insert::insert(task, &mut labels, &mut regions, limit.max(f64::MIN_POSITIVE)) {

@@ -108,7 +108,7 @@ fn the_result_is_the_best_partition_that_was_seen() {
     let working = Working::new(shaken(can(8), 0.02).mesh);
     let options = Options::default();
     let outcome = run(&working, &options, &random_start(&working, 6, 3));
-    let task = Task { working: &working, options: &options };
+    let task = Task { working: &working, options: &options, metric: Metric::Surfaces };
     let energy: f64 = fit_all(&task, faces_of(&outcome.labels), &[]).iter().map(|r| r.error).sum();
     let least = outcome.energy.iter().copied().fold(f64::INFINITY, f64::min);
     assert!((energy - least).abs() <= 1e-12 * least);
@@ -233,7 +233,7 @@ fn the_flood_is_the_papers_pop_by_pop() {
     let options = Options::default();
     for seed in 0..20 {
         let working = Working::new(shaken(can(4), 0.03).mesh);
-        let task = Task { working: &working, options: &options };
+        let task = Task { working: &working, options: &options, metric: Metric::Surfaces };
         let labels = connected(&working, &random_start(&working, 5, seed)).unwrap();
         let regions = fit_all(&task, faces_of(&labels), &[]);
         let seeds = seeds::seeds(&task, &labels, &regions);
@@ -249,7 +249,7 @@ fn seeds_are_connected_parts_of_their_regions_of_a_tenth() {
     let working = Working::new(shaken(can(8), 0.02).mesh);
     for kind in [crate::options::Seeds::Region, crate::options::Seeds::Triangle] {
         let options = Options { seeds: kind, ..Options::default() };
-        let task = Task { working: &working, options: &options };
+        let task = Task { working: &working, options: &options, metric: Metric::Surfaces };
         let labels = connected(&working, &random_start(&working, 5, 1)).unwrap();
         let regions = fit_all(&task, faces_of(&labels), &[]);
         for (region, seed) in seeds::seeds(&task, &labels, &regions).iter().enumerate() {

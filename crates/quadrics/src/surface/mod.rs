@@ -6,6 +6,7 @@
 mod condensed;
 mod cone;
 mod cylinder;
+pub mod height_field;
 pub mod kind;
 mod local;
 pub mod moments;
@@ -14,6 +15,7 @@ mod plane;
 pub mod quadrature;
 mod quadric;
 mod refine;
+pub mod round;
 pub mod select;
 mod sphere;
 pub mod start;

@@ -1,0 +1,80 @@
+//! A height field of second degree over the plane of some points: a small piece of any smooth surface.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::start::{self, Samples};
+use super::{Surface, centroid};
+use crate::math::{Point, Unit, Vector, frame};
+
+/// Heights over a plane as a polynomial of second degree.
+pub struct HeightField {
+    center: Point,
+    axes: [Unit; 2],
+    up: Unit,
+    /// Root mean square extent of the points: coordinates are divided by it.
+    scale: f64,
+    coefficients: SVector<f64, 6>,
+}
+
+impl HeightField {
+    /// Unknowns of a fit.
+    pub const PARAMETERS: usize = 6;
+
+    /// By least squares; `None` without points. A dozen or more are wanted.
+    pub fn fit(points: &[Point]) -> Option<Self> {
+        let Surface::Plane(base) =
+            start::plane(Samples { points, barycentres: &[], normals: &[] })?
+        else {
+            return None;
+        };
+        let center = centroid(points)?;
+        let spread = points.iter().map(|p| (p - center).norm_squared()).sum::<f64>();
+        let (u, v) = frame(&base.normal);
+        let scale = (spread / points.len() as f64).sqrt();
+        let coefficients = SVector::zeros();
+        let mut field = Self { center, axes: [u, v], up: base.normal, scale, coefficients };
+        let mut matrix = SMatrix::<f64, 6, 6>::zeros();
+        let mut right = SVector::<f64, 6>::zeros();
+        for p in points {
+            let d = p - center;
+            let row = field.row(d);
+            matrix += row * row.transpose();
+            right += row * base.normal.dot(&d);
+        }
+        field.coefficients = matrix.cholesky()?.solve(&right);
+        Some(field)
+    }
+
+    /// How far a point is above the field, along [`Self::up`].
+    pub fn above(&self, point: Point) -> f64 {
+        let d = point - self.center;
+        self.up.dot(&d) - self.coefficients.dot(&self.row(d))
+    }
+
+    /// The direction of heights.
+    pub fn up(&self) -> Unit {
+        self.up
+    }
+
+    fn row(&self, d: Vector) -> SVector<f64, 6> {
+        let [x, y] = self.axes.map(|axis| axis.dot(&d) / self.scale);
+        SVector::from([1.0, x, y, x * x, x * y, y * y])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_saddle_is_found_wherever_it_lies() {
+        let at = |x: f64, y: f64| Point::new(100.0 + x, y, 7.0 + 0.1 * x * x - 0.2 * x * y);
+        let points: Vec<Point> =
+            (0..36).map(|i| at(f64::from(i % 6) - 2.5, f64::from(i / 6) - 2.5)).collect();
+        let field = HeightField::fit(&points).unwrap();
+        assert!(points.iter().all(|p| field.above(*p).abs() < 0.02));
+        let lifted = points[14] + field.up().into_inner();
+        assert!((field.above(lifted) - field.above(points[14]) - 1.0).abs() < 1e-9);
+        assert!(HeightField::fit(&[]).is_none());
+    }
+}
