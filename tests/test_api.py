@@ -17,7 +17,7 @@ import pytest
 
 import meshes
 import quadrics
-from quadrics import _core
+from quadrics import _core, synth
 from quadrics.labels import labels_of_input
 from quadrics.surfaces import AnalyticSurface, Quadric, surface_from
 
@@ -273,3 +273,13 @@ def test_a_save_that_fails_leaves_nothing(
             result.save(tmp_path / folder, overwrite=True)
     assert [path.name for path in tmp_path.iterdir()] == ["kept"]
     assert kept.exists()
+
+
+def test_relations_hold_to_rounding_and_can_be_left_out() -> None:
+    part = synth.part("shaft", 5_000)
+    result = quadrics.segment(part.mesh, seed=0)
+    kinds = {relation.kind for relation in result.relations}
+    assert {"parallel", "coaxial"} <= kinds
+    held = [relation for relation in result.relations if relation.status != "refused"]
+    assert all(relation.residual_after < 1e-6 for relation in held)
+    assert quadrics.segment(part.mesh, seed=0, constraints=False).relations == ()

@@ -25,6 +25,8 @@ class Options:
         Method of ours: the best that we know, or section 4 of the paper to the letter.
     regions : int or None
         Number of regions to end with (the paper's kappa); found from the data when not given.
+    constraints : bool
+        Whether relations between the surfaces (parallel, coaxial, ...) are sought and imposed.
     seed : int
         Seed of every random choice: the same seed gives the same result.
     threads : int
@@ -60,6 +62,7 @@ class Options:
     method: Literal["quadrics", "vsa", "qsf", "hfp", "ransac"] = "quadrics"
     preset: Literal["default", "paper"] = "default"
     regions: int | None = None
+    constraints: bool = True
     seed: int = 0
     threads: int = 0
     max_edge: float = 0.03
@@ -81,6 +84,8 @@ class Options:
         for name, choices in CHOICES.items():
             if (value := getattr(self, name)) not in choices:
                 raise OptionError(f"{name} is {value!r}: choose {' or '.join(choices)}")
+        if not isinstance(self.constraints, bool):
+            raise OptionError(f"constraints is {self.constraints!r}: choose True or False")
         for name, (low, high) in _RANGES.items():
             value = getattr(self, name)
             if value is None and name in _OPTIONAL:

@@ -57,6 +57,7 @@ by_name!(
     method,
     preset,
     regions,
+    constraints,
     seed,
     threads,
     max_edge,
@@ -94,7 +95,7 @@ macro_rules! plain {
     )*};
 }
 
-plain!(usize, u64, f64, Option<usize>, Option<f64>);
+plain!(bool, usize, u64, f64, Option<usize>, Option<f64>);
 
 /// A choice is its name.
 macro_rules! choice {
@@ -165,6 +166,7 @@ fn relation<'py>(py: Python<'py>, relation: &Relation) -> PyResult<Bound<'py, Py
     dict.set_item("kind", relation.kind)?;
     dict.set_item("regions", relation.regions.clone())?;
     dict.set_item("status", relation.status)?;
+    dict.set_item("value", relation.value)?;
     dict.set_item("residual_before", relation.residual_before)?;
     dict.set_item("residual_after", relation.residual_after)?;
     dict.set_item("residual_unit", relation.residual_unit)?;

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 pub mod baseline;
+pub mod constrain;
 pub mod context;
 pub mod denoise;
 pub mod describe;

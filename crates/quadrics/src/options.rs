@@ -47,6 +47,8 @@ pub struct Options {
     pub preset: Preset,
     /// Number of regions to end with (the paper's κ); found from the data when `None`.
     pub regions: Option<usize>,
+    /// Whether relations between the surfaces (parallel, coaxial, ...) are sought and imposed.
+    pub constraints: bool,
     /// Seed of every random choice.
     pub seed: u64,
     /// Threads to use; 0 for all cores. The result does not depend on it.
@@ -85,6 +87,7 @@ impl Default for Options {
             method: Method::Quadrics,
             preset: Preset::Default,
             regions: None,
+            constraints: true,
             seed: 0,
             threads: 0,
             max_edge: 0.03,

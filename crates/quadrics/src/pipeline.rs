@@ -1,19 +1,22 @@
 //! The stations in order, nothing else.
 
 use crate::baseline::baseline;
+use crate::constrain::{Constrained, Link, constrain};
 use crate::context::Context;
-use crate::describe::describe;
+use crate::describe::{Recognised, describe, fit_all};
 use crate::error::{Error, Result};
 use crate::math::Similarity;
 use crate::mesh::{Mesh, Working, repair};
 use crate::options::{Method, Options, Preset};
 use crate::paper::paper;
-use crate::partition::{Labels, UNLABELLED, compact, hand_out, separate};
+use crate::partition::{Labels, Regions, UNLABELLED, compact, hand_out, separate};
 use crate::prepare::{in_own_cube, in_unit_cube, labels_back, subdivide};
-use crate::recognise::{self, evidence, scene::Scene};
-use crate::result::{Noise, Repair, Segmentation};
-use crate::surface::Surface;
+use crate::recognise::assign::{self, Model};
+use crate::recognise::detect::side_of;
+use crate::recognise::{self, evidence, moves, scene::Scene};
+use crate::result::{Noise, Relation, Repair, Segmentation};
 use crate::surface::select::Evidence;
+use crate::surface::{Condensed, Surface};
 
 /// Segments a mesh into regions, each with its surface.
 ///
@@ -43,21 +46,34 @@ fn run(
     let (clean, mut repairs) = context.timed("repair", |_| Clean::new(mesh, options))?;
     let Clean { cube, parent, representative, out } = clean;
     let start = initial_labels.map(|labels| start(labels, mesh, &parent, &cube)).transpose()?;
-    let found = match (options.method, options.preset) {
+    let mut found = match (options.method, options.preset) {
         (Method::Quadrics, Preset::Default) => {
             by_default(context, &cube, options, start.as_deref())?
         }
         _ => by_paper(context, &cube, options, start.as_deref())?,
     };
+    // On scans surfaces that hold still tear regions; a number that was asked for stays.
+    let regular = found.evidence.independent == 1.0 && options.regions.is_none();
+    let ours = options.method == Method::Quadrics;
+    let fine = ours && options.preset == Preset::Default && cube.len() >= FEW_FACES;
+    if options.constraints && regular && fine {
+        regroup(context, &cube, &mut found)?;
+    }
     let (labels, former) = to_input(&found.labels, &representative);
     let on_clean: Labels = parent.iter().map(|&face| labels[face as usize]).collect();
     let surfaces: Vec<Surface> =
         former.iter().map(|&old| found.surfaces[old as usize].clone()).collect();
-    let mut described = context.timed("describe", |context| {
-        let mut scene = Scene::new(&cube.mesh);
-        scene.evidence = found.evidence;
-        describe(context, &scene, &on_clean, &surfaces, &out)
-    })?;
+    let mut scene = Scene::new(&cube.mesh);
+    scene.evidence = found.evidence;
+    let mut fits =
+        context.timed("describe", |context| fit_all(context, &scene, &on_clean, &surfaces))?;
+    let relations = if options.constraints && ours {
+        context.timed("constrain", |_| Ok(constrained(&mut fits, &out)))?
+    } else {
+        Vec::new()
+    };
+    let mut described =
+        context.timed("describe", |_| Ok(describe(&scene, &on_clean, &fits, &out)))?;
     described.regions.iter_mut().for_each(|region| region.faces = 0);
     labels.iter().for_each(|&label| described.regions[label as usize].faces += 1);
     repairs.extend(found.repairs);
@@ -65,12 +81,65 @@ fn run(
     Ok(Segmentation {
         labels,
         regions: described.regions,
-        relations: Vec::new(),
+        relations,
         noise: Noise { position, normal_deg: described.normal_deg },
         repairs,
         energy: found.energy,
         timing: context.timing().to_vec(),
     })
+}
+
+/// Lets the constrained surfaces divide the faces anew (paper, 4.3(5)).
+fn regroup(context: &mut Context, cube: &Working, found: &mut Found) -> Result<()> {
+    let mut scene = Scene::new(&cube.mesh);
+    scene.evidence = found.evidence;
+    let mut fits = context
+        .timed("describe", |context| fit_all(context, &scene, &found.labels, &found.surfaces))?;
+    context.timed("constrain", |_| Ok(constrained(&mut fits, &Similarity::identity())))?;
+    context.timed("assign", |_| {
+        let regions = Regions::new(&found.labels);
+        let mut models: Vec<Model> = fits
+            .into_iter()
+            .enumerate()
+            .map(|(i, fit)| Model {
+                side: side_of(&scene, &fit.surface, regions.faces(i)),
+                surface: fit.surface,
+            })
+            .collect();
+        assign::expand(&scene, &models, &mut found.labels);
+        assign::connect(&scene, &mut models, &mut found.labels);
+        moves::tidy(&mut models, &mut found.labels);
+        moves::drop_needless(&scene, &models, &mut found.labels);
+        moves::tidy(&mut models, &mut found.labels);
+        found.surfaces = models.into_iter().map(|model| model.surface).collect();
+        Ok(())
+    })
+}
+
+/// Moves the surfaces of the regions until their relations hold; the relations, in the frame that
+/// `out` leads to.
+fn constrained(fits: &mut [Recognised], out: &Similarity) -> Vec<Relation> {
+    let (at, items): (Vec<usize>, Vec<Condensed>) = fits
+        .iter()
+        .enumerate()
+        .filter_map(|(i, fit)| Some((i, Condensed::new(&fit.surface, &fit.support, fit.sigma)?)))
+        .unzip();
+    let Constrained { surfaces, links } = constrain(&items);
+    at.iter().zip(surfaces).for_each(|(&i, surface)| fits[i].surface = surface);
+    let relation = |link: Link| {
+        let scale = if link.angular { 1.0 } else { out.scaling() };
+        Relation {
+            kind: link.kind,
+            regions: link.surfaces.iter().map(|&s| at[s] as u32).collect(),
+            status: link.status,
+            value: link.value.map(|value| value * scale),
+            residual_before: link.before * scale,
+            residual_after: link.after * scale,
+            residual_unit: if link.angular { "deg" } else { "length" },
+            reason: link.reason,
+        }
+    };
+    links.into_iter().map(relation).collect()
 }
 
 /// The mesh that both methods work on, and how it hangs together with the input.

@@ -69,6 +69,8 @@ pub struct Relation {
     pub regions: Vec<u32>,
     /// `accepted`, `implied` or `refused`.
     pub status: &'static str,
+    /// What is equal, such as a radius; in input units or degrees.
+    pub value: Option<f64>,
     /// How far the free fits were from it.
     pub residual_before: f64,
     /// How far the constrained fits are from it.

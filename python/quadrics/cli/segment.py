@@ -37,12 +37,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     start = "start from these regions: one whole number per face of the input"
     add("--initial-labels", type=Path, metavar="FILE.npy", help=start)
     unit = "length unit of the mesh, such as mm; noted, nothing is converted"
+    relations = "relations between surfaces: sought and imposed, or not (default on)"
+    add("--constraints", choices=("on", "off"), default="on", help=relations)
     add("--units", metavar="UNIT", help=unit)
     add("--json", action="store_true", help="print segmentation.json instead of the table")
     add("--quiet", action="store_true", help="no table and no progress")
     group = parser.add_argument_group("options of the method")
     described = _described()
-    for field in fields(Options):
+    for field in (f for f in fields(Options) if f.name != "constraints"):
         default = "" if field.default is None else f" (default {field.default})"
         group.add_argument(
             f"--{field.name.replace('_', '-')}",
@@ -57,7 +59,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> None:
     """Segment, save, and print."""
     given = vars(arguments)
-    options = Options(**{f.name: given[f.name] for f in fields(Options) if f.name in given})
+    chosen = {f.name: given[f.name] for f in fields(Options) if f.name in given}
+    options = Options(**{**chosen, "constraints": given["constraints"] == "on"})
 
     from quadrics import folder, mesh, segment
     from quadrics.cli.progress import shown

@@ -8,11 +8,17 @@ from typing import TYPE_CHECKING
 from quadrics.surfaces import AnalyticSurface
 
 if TYPE_CHECKING:
-    from quadrics.result import Region, Result
+    from quadrics.result import Region, Relation, Result
 
 #: Longer tables scroll away; the rest is in segmentation.json.
 ROWS = 60
 HEADINGS = ("region", "type", "dimensions", "side", "rms", "max", "area", "faces")
+#: Words to the left, numbers to the right.
+LEFT = (False, True, True, True, False, False, False, False)
+RELATION_HEADINGS = ("relation", "regions", "value", "before", "after", "status")
+RELATION_LEFT = (True, True, False, False, False, True)
+#: So many regions of a relation are named.
+IDS = 8
 #: Of these a person thinks as sizes; where a surface lies is in segmentation.json.
 _SIZES = {
     "offset": "offset",
@@ -26,6 +32,7 @@ _SIZES = {
 
 def print_result(result: Result, folder: Path) -> None:
     """Print the table, the repairs, and where the files are."""
+    _print_relations(result)
     unit = result.units or "units of the input"
     rows = [_row(region) for region in result.regions[:ROWS]]
     for line in _aligned([HEADINGS, *rows]):
@@ -37,6 +44,32 @@ def print_result(result: Result, folder: Path) -> None:
     for repair in result.repairs:
         print(f"found and handled: {repair.detail}")
     print(f"results in {folder}, picture in {folder / 'segmentation.png'}")
+
+
+def _print_relations(result: Result) -> None:
+    """Print what holds between the surfaces, and how far the free fits were from it."""
+    shown = [relation for relation in result.relations if relation.status != "refused"]
+    if not shown:
+        return
+    print()
+    for line in _aligned([RELATION_HEADINGS, *map(_relation_row, shown[:ROWS])], RELATION_LEFT):
+        print(line)
+    if len(shown) > ROWS:
+        print(f"... and {len(shown) - ROWS} more in segmentation.json")
+
+
+def _relation_row(relation: Relation) -> tuple[str, ...]:
+    ids = [str(number) for number in relation.regions[:IDS]]
+    more = [f"and {len(relation.regions) - IDS} more"] if len(relation.regions) > IDS else []
+    unit = "°" if relation.residual_unit == "deg" else ""
+    return (
+        relation.kind.replace("_", " "),
+        " ".join([*ids, *more]),
+        "" if relation.value is None else f"{relation.value:.5g}{unit}",
+        f"{relation.residual_before:.2g}{unit}",
+        f"{relation.residual_after:.0e}{unit}",
+        relation.status,
+    )
 
 
 def dimensions(region: Region) -> str:
@@ -69,10 +102,8 @@ def _row(region: Region) -> tuple[str, ...]:
     )
 
 
-def _aligned(rows: list[tuple[str, ...]]) -> list[str]:
-    widths = [max(len(row[column]) for row in rows) for column in range(len(HEADINGS))]
-    # Words to the left, numbers to the right.
-    left = (False, True, True, True, False, False, False, False)
+def _aligned(rows: list[tuple[str, ...]], left: tuple[bool, ...] = LEFT) -> list[str]:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return [
         "  ".join(
             cell.ljust(width) if words else cell.rjust(width)

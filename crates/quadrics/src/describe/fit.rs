@@ -47,9 +47,22 @@ pub fn fit(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> 
     let (surface, support) = settle(best.surface, gathered.points, scene.evidence.sigma / 4.0);
     let sigma = deviation(scene, &surface, &support);
     // The samples stand for all vertices, of which so many err independently.
-    let independent = gathered.total as f64 * scene.evidence.independent;
+    let independent = independent(gathered.total as f64, scene.evidence.independent);
     let sigma = sigma * (support.len() as f64 / independent.max(1.0)).sqrt();
     Recognised { surface, confidence, runner_up, support, sigma }
+}
+
+/// Fewest and most independent samples of a region on a scan, whose waves are long: a small region
+/// rides on one of them, a large one does not see more of them than fit into the part.
+const WAVES: (f64, f64) = (12.0, 30.0);
+
+/// How many of so many vertices err independently, when in the mesh this fraction does.
+fn independent(vertices: f64, fraction: f64) -> f64 {
+    if fraction < 1.0 {
+        (vertices * fraction).clamp(WAVES.0, WAVES.1).min(vertices)
+    } else {
+        vertices
+    }
 }
 
 /// Free-form, as far as we know.

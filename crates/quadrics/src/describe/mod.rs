@@ -29,55 +29,69 @@ pub struct Described {
     pub normal_deg: f64,
 }
 
-/// Describes the regions of `labels` on the mesh of `scene`, which lies in the unit cube; `surfaces`
-/// has one for every label, in that cube, and `out` leads from it to the frame of the result.
+/// Fits every region of `labels` anew; `surfaces` has what each was recognised by, in the unit cube.
 ///
 /// # Errors
 /// Cancellation.
-pub fn describe(
+pub fn fit_all(
     context: &mut Context,
     scene: &Scene,
     labels: &[u32],
     surfaces: &[Surface],
+) -> Result<Vec<Recognised>> {
+    let regions = Regions::new(labels);
+    let mut found = Vec::with_capacity(surfaces.len());
+    for (chunk, known) in surfaces.chunks(CHUNK).enumerate() {
+        let first = chunk * CHUNK;
+        context.step("describe", first as f64 / surfaces.len() as f64)?;
+        let one = |marks: &mut Marks, (i, known): (usize, &Surface)| {
+            fit(scene, regions.faces(first + i), known, marks)
+        };
+        found.par_extend(known.par_iter().enumerate().map_init(Marks::default, one));
+    }
+    Ok(found)
+}
+
+/// Describes the regions of `labels` on the mesh of `scene`, which lies in the unit cube; `found`
+/// has the surface of every label, in that cube, and `out` leads from it to the frame of the result.
+pub fn describe(
+    scene: &Scene,
+    labels: &[u32],
+    found: &[Recognised],
     out: &Similarity,
-) -> Result<Described> {
+) -> Described {
     let regions = Regions::new(labels);
     let neighbours = neighbours(labels, &scene.adjacency, regions.len());
     let mut described = Described::default();
     let mut angles = Vec::new();
-    for (chunk, known) in surfaces.chunks(CHUNK).enumerate() {
-        let first = chunk * CHUNK;
-        context.step("describe", first as f64 / surfaces.len() as f64)?;
-        let rows: Vec<_> = known
-            .par_iter()
-            .enumerate()
-            .map_init(Marks::default, |marks, (i, known)| {
-                one(scene, regions.faces(first + i), known, out, marks)
-            })
-            .collect();
-        for (region, own) in rows {
-            described.regions.push(region);
-            angles.extend(own);
-        }
+    let rows: Vec<_> = found
+        .par_iter()
+        .enumerate()
+        .map_init(Marks::default, |marks, (i, found)| {
+            one(scene, regions.faces(i), found, out, marks)
+        })
+        .collect();
+    for (region, own) in rows {
+        described.regions.push(region);
+        angles.extend(own);
     }
     for (id, (region, neighbours)) in described.regions.iter_mut().zip(neighbours).enumerate() {
         region.id = id as u32;
         region.neighbours = neighbours;
     }
     described.normal_deg = rayleigh(&mut angles);
-    Ok(described)
+    described
 }
 
 /// Everything of one region but its place among the others, and the angles of its face normals.
 fn one(
     scene: &Scene,
     faces: &[u32],
-    known: &Surface,
+    found: &Recognised,
     out: &Similarity,
     marks: &mut Marks,
 ) -> (Region, Vec<f64>) {
-    let found = fit(scene, faces, known, marks);
-    let (surface, side) = oriented(scene, faces, found.surface);
+    let (surface, side) = oriented(scene, faces, found.surface.clone());
     let surface = anchored(surface, &found.support);
     let scale = out.scaling();
     let deviations = deviations(scene, faces, &surface, marks);
@@ -89,7 +103,7 @@ fn one(
         id: 0,
         side,
         confidence: found.confidence,
-        runner_up: found.runner_up.map(|other| other.class_name(1.0)),
+        runner_up: found.runner_up.as_ref().map(|other| other.class_name(1.0)),
         faces: faces.len(),
         area: area * scale * scale,
         rms: deviations.map(|(rms, _)| rms * scale),

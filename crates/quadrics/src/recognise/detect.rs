@@ -18,8 +18,10 @@ const SHOWS: usize = 70;
 const BATCH: usize = 12;
 /// Adjacent faces whose normals differ more are not in one neighbourhood, in radians.
 const CREASE: f64 = 0.6;
-/// Faces within so many sigmas belong to a growing region.
+/// Faces within so many sigmas belong to a growing region. Waviness and rounded edges make the
+/// residuals of a scan heavy-tailed: less cuts its regions to pieces.
 const REACH: f64 = 2.5;
+const REACH_SCAN: f64 = 4.0;
 /// Vertices that a fit looks at while growing.
 const SAMPLES: usize = 120;
 /// Fewest faces of a region.
@@ -268,7 +270,8 @@ fn inliers_of<S: Shape>(
     labels: &[u32],
     seen: &mut Marks,
 ) -> Vec<u32> {
-    let near = (REACH * scene.evidence.sigma).powi(2);
+    let reach = if scene.correlated() { REACH_SCAN } else { REACH };
+    let near = (reach * scene.evidence.sigma).powi(2);
     let turn = (REACH * scene.evidence.normal_sigma).max(0.2).powi(2);
     let explains = |face: usize| {
         labels[face] == UNLABELLED

@@ -65,9 +65,14 @@ pub fn recognise(
             moves::fit(&scene, &mut models, &labels);
             Ok(())
         })?;
-        context
-            .timed("merge", |context| merge::merge(context, &scene, &mut models, &mut labels))?;
-        free_form::unite(&scene, &mut models, &mut labels);
+        // Regions that the user gives are not united.
+        if initial_labels.is_none() {
+            context.timed("merge", |context| {
+                merge::merge(context, &scene, &mut models, &mut labels)?;
+                free_form::unite(&scene, &mut models, &mut labels);
+                Ok(())
+            })?;
+        }
         energies.push(energy(&scene, &models, &labels));
         if let [.., before, now] = energies[..]
             && (before - now).abs() <= CONVERGED * before

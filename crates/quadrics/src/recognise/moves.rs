@@ -118,7 +118,9 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
                 .map(|&n| (face_cost(scene, &models[n as usize], face as usize), n))
                 .min_by(|a, b| a.0.total_cmp(&b.0));
             let Some((cost, label)) = best else { break };
-            gain -= cost - face_cost(scene, &models[id], face as usize);
+            // What neighbours say together counts once.
+            let own = face_cost(scene, &models[id], face as usize);
+            gain -= scene.evidence.independent * (cost - own);
             moved.push(label);
             if gain < -1000.0 {
                 break;

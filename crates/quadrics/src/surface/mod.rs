@@ -3,6 +3,7 @@
 //! Distances are signed: positive on the side that [`Shape::normal`] points to, which is away from
 //! the centre, the axis or the spine. Lengths are in the unit of the points, angles in radians.
 
+mod condensed;
 mod cone;
 mod cylinder;
 pub mod height_field;
@@ -22,6 +23,7 @@ pub mod taubin;
 mod torus;
 mod uncertainty;
 
+pub use condensed::{Condensed, direction};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use plane::Plane;
