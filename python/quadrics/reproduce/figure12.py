@@ -40,7 +40,8 @@ def make(data: Data) -> Section:
             pictures.append(Pictures(views))
     words = (
         f"Gaussian noise of standard deviation {SIGMA} along the normals on half of the vertices; "
-        "symmetric distances as Metro measures them, as fractions of the size. free is denoised without geometric constraints, constrained with them."
+        "symmetric distances as Metro measures them, as fractions of the size. Free is denoised "
+        "without geometric constraints, constrained with them."
     )
     table = Table(("part", "mesh", "Hausdorff", "mean"), rows)
     return Section("Figure 12: denoising", [table, Note(words), *pictures])
