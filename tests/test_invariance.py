@@ -1,11 +1,16 @@
 """The clean parts with known truth, in another order, place, attitude and size: the same result."""
 
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import quadrics
+
+Floats: TypeAlias = NDArray[np.float64]
+Labels: TypeAlias = NDArray[np.integer]
 
 PARTS = Path(__file__).parents[2] / "shared" / "data" / "parts"
 NAMES = sorted(folder.name for folder in PARTS.glob("*") if (folder / "mesh.ply").exists())
@@ -13,25 +18,28 @@ MOVED = 0.002
 """Most area, as a share, that may change its region (eq. 6)."""
 
 
-def turned(points: np.ndarray) -> np.ndarray:
+def turned(points: Floats) -> Floats:
     """Points of shape (n, 3) turned about an odd axis by an odd angle, moved and scaled by 1000."""
     axis = np.array([0.36, 0.48, 0.8])
     cross = np.cross(np.eye(3), axis)
     rotation = np.eye(3) + np.sin(0.7) * cross + (1 - np.cos(0.7)) * cross @ cross
-    return 1000 * (points @ rotation.T + [3.0, -7.0, 11.0])
+    moved: Floats = 1000 * (points @ rotation.T + [3.0, -7.0, 11.0])
+    return moved
 
 
-def areas(mesh: quadrics.Mesh) -> np.ndarray:
+def areas(mesh: quadrics.Mesh) -> Floats:
     """Area of every face, shape (n,), in squared units of the mesh."""
     a, b, c = np.moveaxis(np.asarray(mesh.vertices)[np.asarray(mesh.faces)], 1, 0)
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    halves: Floats = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return halves
 
 
-def moved(one: np.ndarray, other: np.ndarray, weights: np.ndarray) -> float:
+def moved(one: Labels, other: Labels, weights: Floats) -> float:
     """Share of the area outside the best partner of its region, the worse of both ways (eq. 6)."""
     common = np.zeros((one.max() + 1, other.max() + 1))
     np.add.at(common, (one, other), weights)
-    return 1 - min(common.max(axis=0).sum(), common.max(axis=1).sum()) / weights.sum()
+    kept = min(common.max(axis=0).sum(), common.max(axis=1).sum())
+    return float(1 - kept / weights.sum())
 
 
 def types(result: quadrics.Result) -> list[str]:

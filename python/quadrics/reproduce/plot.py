@@ -10,7 +10,7 @@ from html import escape
 COLOURS = ("#1b6ca8", "#c8553d", "#3c8d53", "#8a5aa8", "#b58900", "#555555")
 WIDTH, HEIGHT = 800, 360
 #: The legend stands in the margin to the right.
-LEFT, RIGHT, TOP, BOTTOM = 80, 210, 20, 50
+LEFT, RIGHT, TOP, BOTTOM = 100, 210, 20, 50
 
 
 @dataclass(frozen=True)
