@@ -50,3 +50,4 @@ def run(arguments: argparse.Namespace) -> None:
         seed=arguments.seed,
     )
     noisy.save(arguments.output, overwrite=arguments.overwrite)
+    print(f"{arguments.output}: {len(noisy.vertices)} vertices, {len(noisy.faces)} faces")
