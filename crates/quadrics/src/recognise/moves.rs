@@ -102,6 +102,8 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
             .flat_map(|&f| scene.adjacency.neighbours[f as usize])
             .filter(|&f| f != NONE && labels[f as usize] != id as u32)
             .map(|f| labels[f as usize])
+            // A free-form neighbour explains nothing.
+            .filter(|&n| !matches!(models[n as usize].surface, Surface::FreeForm))
             .collect();
         neighbours.sort_unstable();
         neighbours.dedup();
