@@ -12,6 +12,10 @@ use crate::surface::select::{self, Choice, Evidence};
 
 /// What one more region costs besides its surface: its boundary and its label.
 pub(super) const LABEL: f64 = 10.0;
+/// What a region must save beside the price of its surface, in nats over its faces, to be kept. More
+/// than [`LABEL`]: faces count vertices twice, and crumbs between two surfaces fit by chance (60 and
+/// 200 are about as good, decision 0002).
+const KEEP: f64 = 100.0;
 /// Vertices that a fit looks at.
 pub(super) const SAMPLES: usize = 200;
 
@@ -111,7 +115,7 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
             continue;
         }
         let vertices = (faces.len() as f64 / 2.0).max(2.0);
-        let price = LABEL + 2.0 * select::cost(&models[id].surface) * vertices.ln() / 2.0;
+        let price = KEEP + 2.0 * select::cost(&models[id].surface) * vertices.ln() / 2.0;
         let mut gain = price;
         let mut moved: Vec<u32> = Vec::with_capacity(faces.len());
         for &face in faces {
