@@ -21,8 +21,6 @@ pub struct Classes {
     pub radius: Vec<usize>,
     /// Half angles of cones.
     pub angle: Vec<usize>,
-    /// The surface whose axis passes the centre of a sphere.
-    pub on_axis: Vec<Option<usize>>,
 }
 
 impl Classes {
@@ -36,7 +34,6 @@ impl Classes {
             offset: own.clone(),
             radius: own.clone(),
             angle: own,
-            on_axis: vec![None; count],
         }
     }
 }
@@ -350,11 +347,6 @@ impl Builder<'_> {
         let class = self.classes.center[i];
         if let Some(known) = &self.centers[class] {
             return known.clone();
-        }
-        if let Some(axis) = self.classes.on_axis[i] {
-            let line = self.line(axis, self.items[axis].foot);
-            let height = self.height(i, &line, center);
-            return Center::OnLine(line, height);
         }
         let at = [center.x, center.y, center.z].map(|value| self.own(value));
         let new = Center::Free(at);
