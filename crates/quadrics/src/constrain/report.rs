@@ -82,33 +82,46 @@ pub fn links(
     for members in groups(&classes.angle, conical) {
         class("equal_angle", members, true, &|a, b| (angle(a) - angle(b)).abs());
     }
-    // The member whose direction is known best speaks for its class.
-    let spread = |i: &usize| items[*i].direction().map(|(_, covariance)| covariance.trace());
-    let speaker = |class: usize| {
-        let members = (0..items.len()).filter(|i| classes.direction[*i] == class);
-        let known = members.filter_map(|i| Some((spread(&i)?, i)));
-        known.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, i)| i)
-    };
     for (equation, verdict) in equations {
         let Equation::Orthogonal(a, b) = equation;
-        let (Some(i), Some(j)) = (speaker(*a), speaker(*b)) else { continue };
         let (status, reason) = match verdict {
             Verdict::Accepted(chi) => ("accepted", format!("chi-squared rises by {chi:.2}")),
             Verdict::Implied => ("implied", "follows from the other relations".to_owned()),
             Verdict::Refused(_) => continue,
         };
-        links.push(Link {
-            kind: "orthogonal",
-            surfaces: vec![i, j],
-            status,
-            value: None,
-            before: lean(free[i], free[j]),
-            after: lean(fitted[i], fitted[j]),
-            angular: true,
-            reason,
-        });
+        let (one, other) = (surest(items, classes, *a), surest(items, classes, *b));
+        if one.is_empty() || other.is_empty() {
+            continue;
+        }
+        // Every member of both is named: the surest of each first, whose equation it is.
+        for k in 0..one.len().max(other.len()) {
+            let (i, j) = (one[k % one.len()], other[k % other.len()]);
+            let (status, reason) = match k {
+                0 => (status, reason.clone()),
+                _ => ("implied", "follows from parallel and one right angle".to_owned()),
+            };
+            links.push(Link {
+                kind: "orthogonal",
+                surfaces: vec![i, j],
+                status,
+                value: None,
+                before: lean(free[i], free[j]),
+                after: lean(fitted[i], fitted[j]),
+                angular: true,
+                reason,
+            });
+        }
     }
     links
+}
+
+/// Members of a direction class, the one whose direction is known best first.
+fn surest(items: &[Condensed], classes: &Classes, class: usize) -> Vec<usize> {
+    let spread = |i: usize| Some((items[i].direction()?.1.trace(), i));
+    let members = (0..items.len()).filter(|i| classes.direction[*i] == class);
+    let mut known: Vec<(f64, usize)> = members.filter_map(spread).collect();
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    known.into_iter().map(|(_, i)| i).collect()
 }
 
 /// Classes of more than one surface, of those that can be in one.
