@@ -33,6 +33,7 @@ class _Segmentation(TypedDict):
     labels: NDArray[np.uint32]
     regions: list[dict[str, Any]]
     relations: list[dict[str, Any]]
+    dimensions: list[dict[str, Any]]
     noise: tuple[float, float]
     repairs: list[tuple[str, int, str]]
     energy: list[float]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from math import inf
-from typing import Literal
+from typing import Any, Literal
 
 from quadrics.errors import OptionError
 
@@ -25,8 +26,9 @@ class Options:
         Method of ours: the best that we know, or section 4 of the paper to the letter.
     regions : int or None
         Number of regions to end with (the paper's kappa); found from the data when not given.
-    constraints : bool
-        Whether relations between the surfaces (parallel, coaxial, ...) are sought and imposed.
+    constraints : bool, dict or path
+        Whether relations between the surfaces (parallel, coaxial, ...) are sought and imposed; or
+        also what is known about them, see `quadrics.constraints`.
     seed : int
         Seed of every random choice: the same seed gives the same result.
     threads : int
@@ -62,7 +64,7 @@ class Options:
     method: Literal["quadrics", "vsa", "qsf", "hfp", "ransac"] = "quadrics"
     preset: Literal["default", "paper"] = "default"
     regions: int | None = None
-    constraints: bool = True
+    constraints: bool | dict[str, Any] | str | os.PathLike[str] = True
     seed: int = 0
     threads: int = 0
     max_edge: float = 0.03
@@ -85,7 +87,9 @@ class Options:
             if (value := getattr(self, name)) not in choices:
                 raise OptionError(f"{name} is {value!r}: choose {' or '.join(choices)}")
         if not isinstance(self.constraints, bool):
-            raise OptionError(f"constraints is {self.constraints!r}: choose True or False")
+            from quadrics.constraints import as_constraints
+
+            object.__setattr__(self, "constraints", as_constraints(self.constraints))
         for name, (low, high) in _RANGES.items():
             value = getattr(self, name)
             if value is None and name in _OPTIONAL:

@@ -64,7 +64,7 @@ class Relation:
     """A geometric relation between regions, and whether it was imposed."""
 
     kind: str
-    regions: tuple[int, ...]
+    regions: tuple[int, ...] | tuple[tuple[int, int], ...]
     status: str
     residual_before: float
     residual_after: float
@@ -72,6 +72,21 @@ class Relation:
     reason: str
     value: float | None = None
     parameters: dict[str, Any] | None = None
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A dimension of a drawing: of every region named, or between the two.
+
+    Lengths are in the unit of the input, angles in degrees; `uncertainty` is a standard deviation
+    under the relations.
+    """
+
+    kind: str
+    regions: tuple[int, ...]
+    value: float
+    uncertainty: float
+    rounded: bool = False
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -84,6 +99,7 @@ class Result:
     labels: NDArray[np.int32]
     regions: tuple[Region, ...]
     relations: tuple[Relation, ...]
+    dimensions: tuple[Dimension, ...]
     noise: Noise
     repairs: tuple[Repair, ...]
     energy: tuple[float, ...]
@@ -120,6 +136,10 @@ class Result:
             "repairs": [asdict(repair) for repair in self.repairs],
             "regions": [_region_dict(region) for region in self.regions],
             "relations": [_relation_dict(relation) for relation in self.relations],
+            "dimensions": [
+                {**asdict(dimension), "regions": list(dimension.regions)}
+                for dimension in self.dimensions
+            ],
             "energy": list(self.energy),
             "timing": self.timing,
         }
@@ -157,6 +177,10 @@ def result_from(
         labels=labels,
         regions=tuple(_region(values, counts) for values in found["regions"]),
         relations=tuple(_relation(values) for values in found["relations"]),
+        dimensions=tuple(
+            Dimension(**{**values, "regions": tuple(values["regions"])})
+            for values in found["dimensions"]
+        ),
         noise=Noise(*found["noise"]),
         repairs=tuple(Repair(*repair) for repair in repairs),
         energy=tuple(found["energy"]),

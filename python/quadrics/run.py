@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from quadrics import _core
+from quadrics.constraints import for_core
 from quadrics.errors import OptionError
 from quadrics.mesh import Mesh, MeshLike, as_mesh, located
 from quadrics.options import Options
@@ -61,7 +62,8 @@ def segment(
     started = time.perf_counter()
     start = None if initial_labels is None else _start(mesh, initial_labels)
     with located(mesh):
-        found = _core.segment(mesh.vertices, mesh.faces, asdict(options), start, progress)
+        values = {**asdict(options), "constraints": for_core(options.constraints)}
+        found = _core.segment(mesh.vertices, mesh.faces, values, start, progress)
     # Reading is a part of what the user waits for, whoever called it.
     seconds = mesh.source.read_s + time.perf_counter() - started
     return result_from(found, mesh, options, units, seconds)

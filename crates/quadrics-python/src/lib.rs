@@ -1,5 +1,6 @@
 //! What Python sees of the core: arrays in, values out, the interpreter free meanwhile.
 
+mod constraints;
 mod context;
 mod denoise;
 mod error;

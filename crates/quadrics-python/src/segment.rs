@@ -4,11 +4,12 @@ use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use quadrics::constrain::Demands;
 use quadrics::options::{Method, Preset, Seeds};
-use quadrics::result::{Region, Relation, Segmentation, Side};
+use quadrics::result::{Region, Segmentation, Side};
 use quadrics::{Options, pipeline};
 
-use crate::{context, mesh, surface};
+use crate::{constraints, context, mesh, surface};
 
 /// Segments a mesh. `options` holds every field of `Options` by its name.
 #[pyfunction]
@@ -95,7 +96,20 @@ macro_rules! plain {
     )*};
 }
 
-plain!(bool, usize, u64, f64, Option<usize>, Option<f64>);
+plain!(usize, u64, f64, Option<usize>, Option<f64>);
+
+/// Off is False, on is True, or a dictionary of demands.
+impl Field for Option<Demands> {
+    fn read(value: &Bound<'_, PyAny>) -> PyResult<Self> {
+        if let Ok(on) = value.extract::<bool>() {
+            return Ok(on.then(Demands::default));
+        }
+        constraints::demands(value.cast::<PyDict>()?).map(Some)
+    }
+    fn write<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(self.is_some().into_pyobject(py)?.to_owned().into_any())
+    }
+}
 
 /// A choice is its name.
 macro_rules! choice {
@@ -129,10 +143,14 @@ choice!(Seeds { Region = "region", Triangle = "triangle" });
 fn describe(py: Python<'_>, result: Segmentation, size: f64) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     let regions: PyResult<Vec<_>> = result.regions.iter().map(|r| region(py, r, size)).collect();
-    let relations: PyResult<Vec<_>> = result.relations.iter().map(|r| relation(py, r)).collect();
+    let relations: PyResult<Vec<_>> =
+        result.relations.iter().map(|r| constraints::relation(py, r)).collect();
+    let dimensions = result.dimensions.iter().map(|d| constraints::dimension(py, d));
+    let dimensions: PyResult<Vec<_>> = dimensions.collect();
     dict.set_item("labels", result.labels.into_pyarray(py))?;
     dict.set_item("regions", PyList::new(py, regions?)?)?;
     dict.set_item("relations", PyList::new(py, relations?)?)?;
+    dict.set_item("dimensions", PyList::new(py, dimensions?)?)?;
     dict.set_item("noise", (result.noise.position, result.noise.normal_deg))?;
     dict.set_item("repairs", mesh::repairs(result.repairs))?;
     dict.set_item("energy", result.energy)?;
@@ -158,18 +176,5 @@ fn region<'py>(py: Python<'py>, region: &Region, size: f64) -> PyResult<Bound<'p
     dict.set_item("mean_normal_deviation_deg", region.mean_normal_deviation_deg)?;
     dict.set_item("uncertainty", region.uncertainty.clone())?;
     dict.set_item("neighbours", region.neighbours.clone())?;
-    Ok(dict)
-}
-
-fn relation<'py>(py: Python<'py>, relation: &Relation) -> PyResult<Bound<'py, PyDict>> {
-    let dict = PyDict::new(py);
-    dict.set_item("kind", relation.kind)?;
-    dict.set_item("regions", relation.regions.clone())?;
-    dict.set_item("status", relation.status)?;
-    dict.set_item("value", relation.value)?;
-    dict.set_item("residual_before", relation.residual_before)?;
-    dict.set_item("residual_after", relation.residual_after)?;
-    dict.set_item("residual_unit", relation.residual_unit)?;
-    dict.set_item("reason", &relation.reason)?;
     Ok(dict)
 }

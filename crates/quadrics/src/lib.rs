@@ -11,6 +11,7 @@ pub mod detect;
 pub mod error;
 pub mod evaluate;
 pub mod format;
+mod impose;
 pub mod math;
 pub mod mesh;
 pub mod options;

@@ -1,5 +1,6 @@
 //! What a user may choose, and what holds when nothing is chosen.
 
+use crate::constrain::Demands;
 use crate::error::{Error, Result};
 
 /// Which of our methods runs.
@@ -47,8 +48,9 @@ pub struct Options {
     pub preset: Preset,
     /// Number of regions to end with (the paper's κ); found from the data when `None`.
     pub regions: Option<usize>,
-    /// Whether relations between the surfaces (parallel, coaxial, ...) are sought and imposed.
-    pub constraints: bool,
+    /// Relations between the surfaces (parallel, coaxial, ...) are sought and imposed, with what the
+    /// user says about them; `None` leaves every surface as it fits best.
+    pub constraints: Option<Demands>,
     /// Seed of every random choice.
     pub seed: u64,
     /// Threads to use; 0 for all cores. The result does not depend on it.
@@ -87,7 +89,7 @@ impl Default for Options {
             method: Method::Quadrics,
             preset: Preset::Default,
             regions: None,
-            constraints: true,
+            constraints: Some(Demands::default()),
             seed: 0,
             threads: 0,
             max_edge: 0.03,

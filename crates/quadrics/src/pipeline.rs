@@ -1,10 +1,11 @@
 //! The stations in order, nothing else.
 
 use crate::baseline::baseline;
-use crate::constrain::{Constrained, Link, constrain};
+use crate::constrain::Demands;
 use crate::context::Context;
-use crate::describe::{Recognised, describe, fit_all};
+use crate::describe::{describe, fit_all, neighbours};
 use crate::error::{Error, Result};
+use crate::impose::impose;
 use crate::math::Similarity;
 use crate::mesh::{Mesh, Working, repair};
 use crate::options::{Method, Options, Preset};
@@ -14,9 +15,9 @@ use crate::prepare::{in_own_cube, in_unit_cube, labels_back, subdivide};
 use crate::recognise::assign::{self, Model};
 use crate::recognise::detect::side_of;
 use crate::recognise::{self, evidence, moves, scene::Scene};
-use crate::result::{Noise, Relation, Repair, Segmentation};
+use crate::result::{Noise, Repair, Segmentation};
+use crate::surface::Surface;
 use crate::surface::select::Evidence;
-use crate::surface::{Condensed, Surface};
 
 /// Segments a mesh into regions, each with its surface.
 ///
@@ -55,8 +56,9 @@ fn run(
     // On scans surfaces that hold still tear regions; a number that was asked for stays.
     let regular = found.evidence.independent == 1.0 && options.regions.is_none();
     let fine = options.preset == Preset::Default && cube.len() >= FEW_FACES;
-    let constraints = options.constraints && options.method == Method::Quadrics;
-    if constraints && regular && fine {
+    let demands = options.constraints.as_ref().filter(|_| options.method == Method::Quadrics);
+    // By what the data say alone: the user's demands are about the regions that come of it.
+    if demands.is_some() && regular && fine {
         regroup(context, &cube, &mut found)?;
     }
     let (labels, former) = to_input(&found.labels, &representative);
@@ -67,10 +69,12 @@ fn run(
     scene.evidence = found.evidence;
     let mut fits =
         context.timed("describe", |context| fit_all(context, &scene, &on_clean, &surfaces))?;
-    let relations = if constraints {
-        context.timed("constrain", |_| Ok(constrained(&mut fits, &out)))?
-    } else {
-        Vec::new()
+    let beside = neighbours(&on_clean, &scene.adjacency, fits.len());
+    let (relations, dimensions) = match demands {
+        Some(demands) => {
+            context.timed("constrain", |_| impose(&mut fits, &beside, demands, &out))?
+        }
+        None => Default::default(),
     };
     let mut described =
         context.timed("describe", |_| Ok(describe(&scene, &on_clean, &fits, &out)))?;
@@ -82,6 +86,7 @@ fn run(
         labels,
         regions: described.regions,
         relations,
+        dimensions,
         noise: Noise { position, normal_deg: described.normal_deg },
         repairs,
         energy: found.energy,
@@ -95,7 +100,10 @@ fn regroup(context: &mut Context, cube: &Working, found: &mut Found) -> Result<(
     scene.evidence = found.evidence;
     let mut fits = context
         .timed("describe", |context| fit_all(context, &scene, &found.labels, &found.surfaces))?;
-    context.timed("constrain", |_| Ok(constrained(&mut fits, &Similarity::identity())))?;
+    let beside = neighbours(&found.labels, &scene.adjacency, fits.len());
+    context.timed("constrain", |_| {
+        impose(&mut fits, &beside, &Demands::default(), &Similarity::identity())
+    })?;
     context.timed("assign", |_| {
         let regions = Regions::new(&found.labels);
         let mut models: Vec<Model> = fits
@@ -114,32 +122,6 @@ fn regroup(context: &mut Context, cube: &Working, found: &mut Found) -> Result<(
         found.surfaces = models.into_iter().map(|model| model.surface).collect();
         Ok(())
     })
-}
-
-/// Moves the surfaces of the regions until their relations hold; the relations, in the frame that
-/// `out` leads to.
-fn constrained(fits: &mut [Recognised], out: &Similarity) -> Vec<Relation> {
-    let (at, items): (Vec<usize>, Vec<Condensed>) = fits
-        .iter()
-        .enumerate()
-        .filter_map(|(i, fit)| Some((i, Condensed::new(&fit.surface, &fit.support, fit.sigma)?)))
-        .unzip();
-    let Constrained { surfaces, links } = constrain(&items);
-    at.iter().zip(surfaces).for_each(|(&i, surface)| fits[i].surface = surface);
-    let relation = |link: Link| {
-        let scale = if link.angular { 1.0 } else { out.scaling() };
-        Relation {
-            kind: link.kind,
-            regions: link.surfaces.iter().map(|&s| at[s] as u32).collect(),
-            status: link.status,
-            value: link.value.map(|value| value * scale),
-            residual_before: link.before * scale,
-            residual_after: link.after * scale,
-            residual_unit: if link.angular { "deg" } else { "length" },
-            reason: link.reason,
-        }
-    };
-    links.into_iter().map(relation).collect()
 }
 
 /// The mesh that both methods work on, and how it hangs together with the input.

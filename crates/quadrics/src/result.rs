@@ -65,12 +65,14 @@ pub struct Region {
 pub struct Relation {
     /// Its name in the result files, such as `coaxial`.
     pub kind: &'static str,
-    /// The regions it is about.
+    /// The regions it is about; pairs one after the other where it is one of pairs.
     pub regions: Vec<u32>,
     /// `accepted`, `implied` or `refused`.
     pub status: &'static str,
     /// What is equal, such as a radius; in input units or degrees.
     pub value: Option<f64>,
+    /// What describes a pattern or a mirror, in the frame and units of the input.
+    pub parameters: Vec<(&'static str, Parameter)>,
     /// How far the free fits were from it.
     pub residual_before: f64,
     /// How far the constrained fits are from it.
@@ -79,6 +81,32 @@ pub struct Relation {
     pub residual_unit: &'static str,
     /// Why it was accepted or refused, in numbers.
     pub reason: String,
+}
+
+/// A parameter of a relation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Parameter {
+    /// A number of things.
+    Count(usize),
+    /// A length.
+    Length(f64),
+    /// A place or a direction.
+    Vector([f64; 3]),
+}
+
+/// A dimension of a drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dimension {
+    /// `radius`, `major_radius`, `minor_radius`, `half_angle`, `angle` or `distance`.
+    pub kind: &'static str,
+    /// The regions that have it, or the two that it lies between.
+    pub regions: Vec<u32>,
+    /// In input units or degrees.
+    pub value: f64,
+    /// Standard deviation, under the relations.
+    pub uncertainty: f64,
+    /// Whether it was rounded to the user's grid.
+    pub rounded: bool,
 }
 
 /// The result of a run.
@@ -90,6 +118,8 @@ pub struct Segmentation {
     pub regions: Vec<Region>,
     /// Relations between regions.
     pub relations: Vec<Relation>,
+    /// Dimensions of a drawing; none without constraints.
+    pub dimensions: Vec<Dimension>,
     /// Noise of the input.
     pub noise: Noise,
     /// What was mended.

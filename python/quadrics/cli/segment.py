@@ -19,6 +19,7 @@ examples:
   quadrics segment scan.stl -o scan/ --regions 24 --seed 1
   quadrics segment scan.ply -o scan/ --preset paper --beta 0.01
   quadrics segment scan.stl -o scan/ --initial-labels mine.npy
+  quadrics segment scan.stl -o scan/ --constraints known.json --round-length 0.1
   quadrics segment scan.stl -o scan/ --json | jq '.regions[].type'
 
 The folder then holds labels.npy (a region for every face of the input), segmentation.json,
@@ -37,8 +38,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     start = "start from these regions: one whole number per face of the input"
     add("--initial-labels", type=Path, metavar="FILE.npy", help=start)
     unit = "length unit of the mesh, such as mm; noted, nothing is converted"
-    relations = "relations between surfaces: sought and imposed, or not (default on)"
-    add("--constraints", choices=("on", "off"), default="on", help=relations)
+    relations = "relations between surfaces: sought and imposed, or not, or what is known of them"
+    add("--constraints", default="on", metavar="on|off|FILE.json", help=f"{relations} (default on)")
+    grid = "round dimensions to multiples of this length where the data allow it"
+    add("--round-length", type=float, metavar="X", help=grid)
+    add("--round-angle-deg", type=float, metavar="X", help="the same for angles, in degrees")
     add("--units", metavar="UNIT", help=unit)
     add("--json", action="store_true", help="print segmentation.json instead of the table")
     add("--quiet", action="store_true", help="no table and no progress")
@@ -60,7 +64,7 @@ def run(arguments: argparse.Namespace) -> None:
     """Segment, save, and print."""
     given = vars(arguments)
     chosen = {f.name: given[f.name] for f in fields(Options) if f.name in given}
-    options = Options(**{**chosen, "constraints": given["constraints"] == "on"})
+    options = Options(**{**chosen, "constraints": _constraints(arguments)})
 
     from quadrics import folder, mesh, segment
     from quadrics.cli.progress import shown
@@ -81,6 +85,21 @@ def run(arguments: argparse.Namespace) -> None:
         from quadrics.cli.table import print_result
 
         print_result(result, saved)
+
+
+def _constraints(arguments: argparse.Namespace) -> bool | dict[str, Any]:
+    from quadrics.constraints import as_constraints
+    from quadrics.errors import OptionError
+
+    given = arguments.constraints
+    grid = {"length": arguments.round_length, "angle_deg": arguments.round_angle_deg}
+    grid = {name: value for name, value in grid.items() if value is not None}
+    if given in ("on", "off") and not grid:
+        return bool(given == "on")
+    if given == "off":
+        raise OptionError("--round-length and --round-angle-deg need --constraints on")
+    document = {} if given == "on" else as_constraints(Path(given))
+    return {**document, "round": {**document.get("round", {}), **grid}}
 
 
 def _labels(path: Path | None) -> Any:

@@ -7,8 +7,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::equation::Equation;
-use super::gate;
-use super::solve::Spread;
+use super::gate::{self, Gate};
+use super::spread::Spread;
 use super::system::{State, System};
 
 /// What became of a candidate.
@@ -31,6 +31,8 @@ pub struct Candidate {
     pub range: f64,
     /// Log odds before anything is measured, over those of any relation.
     pub before: f64,
+    /// The user wants it.
+    pub forced: bool,
 }
 
 /// A row, scaled to length one, that keeps less than this beside the accepted ones depends on them.
@@ -40,16 +42,15 @@ const HOLDS: f64 = 1e-12;
 /// Newton steps towards the equations; 4 are the rule.
 const STEPS: usize = 12;
 
-/// Judges candidates in the light of each other, and of `accepted`, which hold already; the state in
-/// which all accepted ones hold.
+/// Judges candidates in the light of each other; the state in which all accepted ones hold.
 pub fn admit(
     system: &System,
     state: &State,
     spread: &Spread,
-    accepted: &[Equation],
     candidates: &[Candidate],
+    gate: Gate,
 ) -> (Vec<Verdict>, State) {
-    let mut judge = Judge::new(system, state, spread, accepted, candidates);
+    let mut judge = Judge::new(system, state, spread, candidates, gate);
     let mut verdicts: Vec<Option<Verdict>> = vec![None; candidates.len()];
     loop {
         let open = (0..candidates.len()).filter(|&i| verdicts[i].is_none());
@@ -57,7 +58,7 @@ pub fn admit(
         let Some((_, i)) = seen.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))) else {
             break;
         };
-        verdicts[i] = Some(judge.take(candidates[i].equation));
+        verdicts[i] = Some(judge.take(candidates[i].equation.clone()));
     }
     let refused = |c: &Candidate| {
         let (value, variance, _) = judge.see(&c.equation);
@@ -69,6 +70,7 @@ pub fn admit(
 
 struct Judge<'a> {
     system: &'a System,
+    gate: Gate,
     state: State,
     /// The unknowns that any equation depends on.
     unknowns: Vec<usize>,
@@ -83,17 +85,17 @@ impl<'a> Judge<'a> {
         system: &'a System,
         state: &State,
         spread: &Spread,
-        accepted: &[Equation],
         candidates: &[Candidate],
+        gate: Gate,
     ) -> Self {
-        let equations = accepted.iter().chain(candidates.iter().map(|c| &c.equation));
+        let equations = candidates.iter().map(|c| &c.equation);
         let mut unknowns: Vec<usize> = equations.flat_map(|e| e.unknowns(system)).collect();
         unknowns.sort_unstable();
         unknowns.dedup();
         let units: Vec<_> = unknowns.iter().map(|&u| vec![(u, 1.0)]).collect();
         let free = spread.of(&units);
-        let (state, accepted) = (state.clone(), accepted.to_vec());
-        Self { system, state, unknowns, covariance: free.clone(), free, accepted }
+        let (state, accepted) = (state.clone(), Vec::new());
+        Self { system, gate, state, unknowns, covariance: free.clone(), free, accepted }
     }
 
     /// Value and variance of an equation whose row is scaled to length one, and the row.
@@ -123,6 +125,13 @@ impl<'a> Judge<'a> {
         // What holds already is known for sure.
         if value.abs() < HOLDS && variance < HOLDS {
             return Some(f64::MAX);
+        }
+        if candidate.forced {
+            return Some(f64::MAX);
+        }
+        if let Some(tolerance) = self.gate.angle {
+            // The row has length one: the value is an angle by the square root of two.
+            return Gate::by_tolerance(tolerance, value.abs() * std::f64::consts::SQRT_2);
         }
         gate::log_odds_of(value, variance, candidate.range, candidate.before)
     }

@@ -1,9 +1,11 @@
 //! Sets of right angles that follow from each other, or contradict.
 
 use super::admit::{Candidate, Verdict, admit};
+use super::classes::Classes;
 use super::equation::Equation;
+use super::gate::Gate;
 use super::solve::solve;
-use super::system::{Classes, System};
+use super::system::System;
 use crate::math::{Point, Unit, Vector, frame};
 use crate::surface::{Condensed, Plane, Surface};
 
@@ -27,9 +29,10 @@ fn judged(normals: &[Vector]) -> (Vec<Verdict>, f64) {
     let count = normals.len();
     let candidates: Vec<_> = (0..count)
         .flat_map(|a| (a + 1..count).map(move |b| Equation::Orthogonal(a, b)))
-        .map(|equation| Candidate { equation, range: 2.0, before: 0.0 })
+        .map(|equation| Candidate { equation, range: 2.0, before: 0.0, forced: false })
         .collect();
-    let (verdicts, state) = admit(&system, &solution.state, &solution.spread, &[], &candidates);
+    let (verdicts, state) =
+        admit(&system, &solution.state, &solution.spread, &candidates, Gate::default());
     let held = candidates.iter().zip(&verdicts).filter(|(_, v)| !matches!(v, Verdict::Refused(_)));
     let left = held.map(|(c, _)| c.equation.value(&system, &state).abs()).fold(0.0, f64::max);
     (verdicts, left)

@@ -1,9 +1,9 @@
 //! Orientation: which directions are one, and which are at right angles.
 
-use nalgebra::{Matrix2, Matrix3, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2};
 
-use super::cluster::{Estimate, agglomerate};
-use super::gate;
+use super::cluster::{Estimate, Rules, agglomerate};
+use super::gate::{self, Gate};
 use crate::math::{Unit, frame};
 use crate::surface::Condensed;
 
@@ -12,6 +12,7 @@ struct Bearing {
     direction: Unit,
     covariance: Matrix3<f64>,
     count: usize,
+    gate: Gate,
 }
 
 /// Solid angle of all directions, signs aside.
@@ -38,7 +39,12 @@ impl Estimate for Bearing {
             return None;
         }
         let (g, one, two, _) = self.seen(other);
-        gate::log_odds(&g, &(one + two), HEMISPHERE, gate::joining(self.count, other.count))
+        if let Some(tolerance) = self.gate.angle {
+            return Gate::by_tolerance(tolerance, g.norm());
+        }
+        let g = DVector::from_column_slice(g.as_slice());
+        let spread = DMatrix::from_column_slice(2, 2, (one + two).as_slice());
+        gate::log_odds(&g, &spread, HEMISPHERE, gate::joining(self.count, other.count))
     }
 
     fn fused(&self, other: &Self) -> Self {
@@ -52,22 +58,24 @@ impl Estimate for Bearing {
             direction: Unit::new_normalize(tip),
             covariance: across * left * across.transpose(),
             count: self.count + other.count,
+            gate: self.gate,
         }
     }
 }
 
-/// The direction class of every surface (0 for one that has none), and the classes' directions.
-pub fn parallel(items: &[Condensed]) -> (Vec<usize>, Vec<Unit>) {
+/// The direction class of every surface (0 for one that has none), and the classes' directions;
+/// `rules` are about surfaces.
+pub fn parallel(items: &[Condensed], rules: &Rules, gate: Gate) -> (Vec<usize>, Vec<Unit>) {
     let known: Vec<(usize, Bearing)> = items
         .iter()
         .enumerate()
         .filter_map(|(i, item)| {
             let (direction, covariance) = item.direction()?;
-            Some((i, Bearing { direction, covariance, count: 1 }))
+            Some((i, Bearing { direction, covariance, count: 1, gate }))
         })
         .collect();
     let (at, bearings): (Vec<usize>, Vec<Bearing>) = known.into_iter().unzip();
-    let (classes, fused) = agglomerate(bearings);
+    let (classes, fused) = agglomerate(bearings, &rules.at(&at));
     let mut class = vec![0; items.len()];
     at.into_iter().zip(classes).for_each(|(i, c)| class[i] = c);
     (class, fused.into_iter().map(|b| b.direction).collect())

@@ -5,13 +5,19 @@
 //! uniform over a volume. The odds are `V N(g; 0, S)` times those before looking: a coarse direction
 //! agrees with everything and says nothing, a fine one that agrees is no accident.
 
-use nalgebra::{Const, DimMin, OMatrix, OVector, allocator::Allocator};
-use nalgebra::{DefaultAllocator, Dim};
+use nalgebra::{DMatrix, DVector};
 
-/// Chi-squared that a true relation exceeds once in 10 000 times, by degrees of freedom (1, 2, 3).
-pub const LIMITS: [f64; 3] = [15.1, 18.4, 21.1];
 /// Log odds that two surfaces share something before anything is measured.
 pub const PRIOR: f64 = -2.0;
+/// Standard normal deviate that is exceeded once in 10 000 times.
+const RARE: f64 = 3.719;
+
+/// Chi-squared that a true relation of so many equations exceeds once in 10 000 times (Wilson and
+/// Hilferty, 1931).
+pub fn limit(count: usize) -> f64 {
+    let ninth = 2.0 / (9.0 * count as f64);
+    count as f64 * (1.0 - ninth + RARE * ninth.sqrt()).powi(3)
+}
 
 /// Log odds that groups of so many surfaces are one before anything is measured: by Pitman's rule
 /// (the Chinese restaurant) a surface joins a group with odds proportional to its size.
@@ -20,33 +26,51 @@ pub fn joining(one: usize, other: usize) -> f64 {
     one.min(other) as f64 * (one.max(other) as f64).ln().min(3.0)
 }
 
+/// A user's own gate: what deviates less is related, what deviates more is not, however well it is
+/// known. `None` leaves it to the odds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Gate {
+    /// For directions and half angles, in radians.
+    pub angle: Option<f64>,
+    /// For places and sizes.
+    pub length: Option<f64>,
+}
+
+impl Gate {
+    /// Log odds under a tolerance of the user's: surer the smaller the deviation.
+    pub fn by_tolerance(tolerance: f64, deviation: f64) -> Option<f64> {
+        (deviation <= tolerance).then(|| 1.0 - deviation / tolerance.max(f64::MIN_POSITIVE))
+    }
+}
+
 /// Log odds of a relation; `None` below even odds, or where chi-squared refuses it.
-pub fn log_odds<D>(
-    g: &OVector<f64, D>,
-    s: &OMatrix<f64, D, D>,
-    volume: f64,
-    before: f64,
-) -> Option<f64>
-where
-    D: Dim + DimMin<D, Output = D>,
-    DefaultAllocator: Allocator<D> + Allocator<D, D>,
-{
+pub fn log_odds(g: &DVector<f64>, s: &DMatrix<f64>, volume: f64, before: f64) -> Option<f64> {
     let factor = s.clone().cholesky()?;
     let chi_squared = g.dot(&factor.solve(g));
-    let count = g.len();
     let half_log_determinant: f64 = factor.l_dirty().diagonal().iter().map(|v| v.ln()).sum();
-    let density =
-        -chi_squared / 2.0 - half_log_determinant - count as f64 / 2.0 * std::f64::consts::TAU.ln();
-    let odds = density + volume.ln() + PRIOR + before;
-    (odds > 0.0 && chi_squared < LIMITS[count - 1]).then_some(odds)
+    weighed(chi_squared, half_log_determinant, g.len(), volume.ln() + before)
 }
 
 /// [`log_odds`] of one number.
 pub fn log_odds_of(g: f64, variance: f64, volume: f64, before: f64) -> Option<f64> {
-    log_odds::<Const<1>>(
-        &OVector::<f64, Const<1>>::new(g),
-        &OMatrix::<f64, Const<1>, Const<1>>::new(variance),
-        volume,
-        before,
-    )
+    weighed(g * g / variance, variance.ln() / 2.0, 1, volume.ln() + before)
+}
+
+/// From chi-squared, half the logarithm of the determinant, the number of equations, and the log
+/// odds before looking times the volume.
+pub fn weighed(chi_squared: f64, half: f64, count: usize, before: f64) -> Option<f64> {
+    let density = -chi_squared / 2.0 - half - count as f64 / 2.0 * std::f64::consts::TAU.ln();
+    let odds = density + before + PRIOR;
+    (odds > 0.0 && chi_squared < limit(count)).then_some(odds)
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_limits_are_those_of_the_tables() {
+        // Quantiles of chi-squared at 1e-4: 15.14, 18.42, 21.11, 35.56 (10 equations).
+        for (count, exact) in [(1, 15.14), (2, 18.42), (3, 21.11), (10, 35.56)] {
+            assert!((super::limit(count) / exact - 1.0).abs() < 0.08);
+        }
+    }
 }

@@ -2,63 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::cluster::{Estimate, agglomerate};
-use super::gate;
-use super::solve::Solution;
-use super::system::{Center, Classes, Form, Line, System};
+use super::classes::Classes;
+use super::cluster::{Rules, agglomerate};
+use super::demands::Demands;
+use super::position::Position;
+use super::solve::{STEP, Solution};
+use super::system::{Center, Form, Line, System};
 use crate::math::{Point, Unit, frame};
-
-/// Where something is, in one or more numbers, and their covariance.
-struct Position {
-    /// Only things of one group are compared.
-    group: usize,
-    count: usize,
-    /// Whether large groups attract: axes gather, sizes do not.
-    social: bool,
-    value: DVector<f64>,
-    covariance: DMatrix<f64>,
-    /// Where it was measured, and the variance of the direction that leads elsewhere.
-    measured: Point,
-    turn: f64,
-    /// Volume of the places that it might have been in.
-    volume: f64,
-}
-
-impl Position {
-    /// Variance that the direction adds over the way between two measurements.
-    fn lever(&self, other: &Self) -> DMatrix<f64> {
-        let way = (self.measured - other.measured).norm_squared();
-        DMatrix::identity(self.value.len(), self.value.len()) * (way * self.turn.max(other.turn))
-    }
-}
-
-impl Estimate for Position {
-    fn log_odds(&self, other: &Self) -> Option<f64> {
-        if self.group != other.group {
-            return None;
-        }
-        let covariance = &self.covariance + &other.covariance + self.lever(other);
-        let before = if self.social { gate::joining(self.count, other.count) } else { 0.0 };
-        let volume = self.volume.max(other.volume);
-        gate::log_odds(&(&self.value - &other.value), &covariance, volume, before)
-    }
-
-    fn fused(&self, other: &Self) -> Self {
-        let total = (&self.covariance + &other.covariance).try_inverse();
-        let gain = total.map_or_else(|| self.covariance.clone() * 0.0, |t| &self.covariance * t);
-        let nearer = self.covariance.trace() <= other.covariance.trace();
-        Self {
-            group: self.group,
-            count: self.count + other.count,
-            social: self.social,
-            value: &self.value + &gain * (&other.value - &self.value),
-            covariance: &self.covariance - &gain * &self.covariance,
-            measured: if nearer { self.measured } else { other.measured },
-            turn: self.turn.max(other.turn),
-            volume: self.volume,
-        }
-    }
-}
+use crate::surface::Scatter;
 
 /// A solved system to look at.
 pub struct View<'a> {
@@ -66,17 +17,19 @@ pub struct View<'a> {
     pub system: &'a System,
     /// Their values and covariances.
     pub solution: &'a Solution,
+    /// What the user says.
+    pub demands: &'a Demands,
 }
 
 /// Area across a direction, length along it, and volume that places of a part in the unit cube
 /// spread over.
-const AREA: f64 = 0.3;
-const LENGTH: f64 = 0.6;
+pub const AREA: f64 = 0.3;
+pub const LENGTH: f64 = 0.6;
 const VOLUME: f64 = 0.2;
 /// Radii spread over a few octaves: the density at one of them is that of its logarithm.
 const OCTAVES: f64 = 3.0;
 /// Half angles spread over a right angle.
-const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
+pub const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 
 impl View<'_> {
     fn scalar(&self, scalar: usize) -> (usize, f64) {
@@ -89,12 +42,14 @@ impl View<'_> {
         self.solution.spread.of(&rows).diagonal().max()
     }
 
-    fn covariance(&self, scalars: &[usize]) -> DMatrix<f64> {
+    /// Covariance of some scalars.
+    pub fn covariance(&self, scalars: &[usize]) -> DMatrix<f64> {
         let rows: Vec<_> = scalars.iter().map(|&s| vec![(self.scalar(s).0, 1.0)]).collect();
         self.solution.spread.of(&rows)
     }
 
-    fn line_of(&self, i: usize) -> Option<&Line> {
+    /// The axis of a surface that has one.
+    pub fn line_of(&self, i: usize) -> Option<&Line> {
         match &self.system.forms[i] {
             Form::Cylinder { line, .. } | Form::Cone { line, .. } | Form::Torus { line, .. } => {
                 Some(line)
@@ -103,7 +58,7 @@ impl View<'_> {
         }
     }
 
-    fn axis(&self, i: usize) -> Option<Position> {
+    pub fn axis(&self, i: usize) -> Option<Position> {
         let line = self.line_of(i)?;
         let state = &self.solution.state;
         let (u, v) = frame(&state.directions[line.direction]);
@@ -119,17 +74,18 @@ impl View<'_> {
             measured,
             turn: self.turn(line.direction),
             volume: AREA,
+            tolerance: self.demands.gate.length,
         })
     }
 
     /// Covariance of a line's place in another frame across it.
     fn turned(&self, line: &Line, axes: &[Unit; 2]) -> DMatrix<f64> {
-        let across = line.across();
+        let across = line.across;
         let turn = DMatrix::from_fn(2, 2, |i, j| axes[i].dot(&across[j]));
         &turn * self.covariance(&line.at) * turn.transpose()
     }
 
-    fn plane(&self, i: usize) -> Option<Position> {
+    pub fn plane(&self, i: usize) -> Option<Position> {
         let Form::Plane { direction, base, offset, .. } = &self.system.forms[i] else {
             return None;
         };
@@ -144,14 +100,15 @@ impl View<'_> {
             measured: *base,
             turn: self.turn(*direction),
             volume: LENGTH,
+            tolerance: self.demands.gate.length,
         })
     }
 
-    fn center(&self, i: usize) -> Option<Position> {
+    pub fn center(&self, i: usize) -> Option<Position> {
         let state = &self.solution.state;
         let of_line = |line: &Line, height: usize| {
             let center = line.at(state, state.scalars[height]);
-            let across = line.across();
+            let across = line.across;
             let d = state.directions[line.direction].into_inner();
             let axes = nalgebra::Matrix3::from_columns(&[across[0], across[1], d]);
             let axes = DMatrix::from_column_slice(3, 3, axes.as_slice());
@@ -177,10 +134,11 @@ impl View<'_> {
             measured: center,
             turn: 0.0,
             volume: VOLUME,
+            tolerance: self.demands.gate.length,
         })
     }
 
-    fn size(&self, scalar: usize, volume: f64) -> Position {
+    fn size(&self, scalar: usize, volume: f64, tolerance: Option<f64>) -> Position {
         let (_, value) = self.scalar(scalar);
         Position {
             group: 0,
@@ -191,29 +149,55 @@ impl View<'_> {
             measured: Point::origin(),
             turn: 0.0,
             volume,
+            tolerance,
         }
     }
 
-    fn radius(&self, i: usize) -> Option<Position> {
+    pub fn radius(&self, i: usize) -> Option<Position> {
         let (Form::Cylinder { radius: scalar, .. }
         | Form::Sphere { radius: scalar, .. }
         | Form::Torus { minor: scalar, .. }) = &self.system.forms[i]
         else {
             return None;
         };
-        Some(self.size(*scalar, OCTAVES * self.scalar(*scalar).1.abs()))
+        let octaves = OCTAVES * self.scalar(*scalar).1.abs();
+        Some(self.size(*scalar, octaves, self.demands.gate.length))
     }
 
-    fn angle(&self, i: usize) -> Option<Position> {
+    pub fn angle(&self, i: usize) -> Option<Position> {
         let Form::Cone { angle, .. } = &self.system.forms[i] else { return None };
-        Some(self.size(*angle, RIGHT_ANGLE))
+        Some(self.size(*angle, RIGHT_ANGLE, self.demands.gate.angle))
+    }
+
+    /// What each surface may still do.
+    pub fn scatters(&self) -> Vec<Scatter> {
+        let of = |i: usize| {
+            let unknowns = self.system.unknowns(i);
+            let units: Vec<_> = unknowns.iter().map(|&u| vec![(u, 1.0)]).collect();
+            let moved = |unknown: usize, step: f64| {
+                let mut state = self.solution.state.clone();
+                state.nudge(unknown, step);
+                self.system.surface(i, &state)
+            };
+            Scatter {
+                covariance: self.solution.spread.of(&units),
+                moved: unknowns.iter().map(|&u| [moved(u, STEP), moved(u, -STEP)]).collect(),
+                step: STEP,
+            }
+        };
+        (0..self.system.forms.len()).map(of).collect()
     }
 
     /// Classes of the positions; surfaces that have none keep theirs.
-    fn classes(&self, old: &mut [usize], of: impl Fn(&Self, usize) -> Option<Position>) {
+    fn classes(
+        &self,
+        old: &mut [usize],
+        rules: &Rules,
+        of: impl Fn(&Self, usize) -> Option<Position>,
+    ) {
         let known = (0..old.len()).filter_map(|i| Some((i, of(self, i)?)));
         let (at, positions): (Vec<usize>, Vec<Position>) = known.unzip();
-        let (classes, _) = agglomerate(positions);
+        let (classes, _) = agglomerate(positions, &rules.at(&at));
         for (&i, class) in at.iter().zip(&classes) {
             // A class is called after its first surface.
             let first = classes.iter().position(|c| c == class).map_or(i, |first| at[first]);
@@ -223,14 +207,14 @@ impl View<'_> {
 
     /// Coaxial and coplanar surfaces.
     pub fn align(&self, classes: &mut Classes) {
-        self.classes(&mut classes.line, Self::axis);
-        self.classes(&mut classes.offset, Self::plane);
+        self.classes(&mut classes.line, &self.demands.rules("coaxial"), Self::axis);
+        self.classes(&mut classes.offset, &self.demands.rules("coplanar"), Self::plane);
     }
 
     /// Surfaces with one centre.
     pub fn center_all(&self, classes: &mut Classes) {
         let mut center = classes.center.clone();
-        self.classes(&mut center, Self::center);
+        self.classes(&mut center, &self.demands.rules("concentric"), Self::center);
         // Tori on different lines cannot share a centre here.
         let line = |i: usize| self.line_of(i).map(|_| classes.line[i]);
         for i in 0..center.len() {
@@ -246,7 +230,7 @@ impl View<'_> {
 
     /// Equal radii and angles.
     pub fn equalise(&self, classes: &mut Classes) {
-        self.classes(&mut classes.radius, Self::radius);
-        self.classes(&mut classes.angle, Self::angle);
+        self.classes(&mut classes.radius, &self.demands.rules("equal_radius"), Self::radius);
+        self.classes(&mut classes.angle, &self.demands.rules("equal_angle"), Self::angle);
     }
 }

@@ -3,9 +3,10 @@
 //! Unknowns of one surface alone are eliminated first (a Schur complement each), so that the system
 //! to solve has only what is shared; equations enter by their multipliers.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
 
 use super::equation::Equation;
+use super::spread::{Own, Place, Spread};
 use super::system::{State, System};
 use crate::surface::Condensed;
 
@@ -13,8 +14,13 @@ use crate::surface::Condensed;
 const ITERATIONS: usize = 20;
 /// A step of this length, in sizes and radians, is the last one.
 const SETTLED: f64 = 1e-11;
+/// Relative ridge under equations that depend on each other; steps repeat until they hold exactly.
+const DEPENDENT: f64 = 1e-12;
+/// All equations hold to this in the end, in sizes and radians.
+const HOLDS: f64 = 1e-10;
 /// Step of the differences.
-const STEP: f64 = 1e-6;
+pub const STEP: f64 = 1e-6;
+
 /// The least sum of squares under the equations.
 pub struct Solution {
     /// The unknowns.
@@ -23,32 +29,6 @@ pub struct Solution {
     pub increase: Vec<f64>,
     /// Covariances.
     pub spread: Spread,
-}
-
-/// One surface's part: its own unknowns, given the shared ones.
-struct Own {
-    unknowns: Vec<usize>,
-    shared: Vec<usize>,
-    /// Covariance of its own unknowns when the shared ones are held.
-    inverse: DMatrix<f64>,
-    /// `inverse * H_own,shared`.
-    gain: DMatrix<f64>,
-}
-
-/// Covariance of any linear function of the unknowns.
-pub struct Spread {
-    /// Position of a shared unknown among the shared ones, or the surface that owns it.
-    place: Vec<Place>,
-    owns: Vec<Own>,
-    /// Covariance of the shared unknowns, under the equations.
-    shared: DMatrix<f64>,
-}
-
-#[derive(Clone, Copy, PartialEq)]
-enum Place {
-    Shared(usize),
-    Own(usize, usize),
-    Unused,
 }
 
 /// Solves; `None` where the system is singular or the steps run away.
@@ -71,6 +51,9 @@ pub fn solve(
             break;
         }
     }
+    if !equations.iter().all(|e| e.value(system, &state).abs() < HOLDS) {
+        return None;
+    }
     let last = Step::new(items, system, &state, equations, &place)?;
     let increase = (0..items.len())
         .map(|i| {
@@ -81,7 +64,11 @@ pub fn solve(
     Some(Solution {
         state,
         increase,
-        spread: Spread { place, owns: last.owns, shared: last.covariance },
+        spread: Spread {
+            place,
+            owns: last.owns,
+            shared: last.factor.inverse() - last.bounds.known(),
+        },
     })
 }
 
@@ -112,7 +99,8 @@ fn places(system: &System, equations: &[Equation]) -> Vec<Place> {
 struct Step {
     change: DVector<f64>,
     owns: Vec<Own>,
-    covariance: DMatrix<f64>,
+    factor: Cholesky<f64, Dyn>,
+    bounds: Bounds,
 }
 
 impl Step {
@@ -162,7 +150,10 @@ impl Step {
                 gain,
             });
         }
-        let (change, covariance) = bounded(matrix, &right, system, state, equations, place)?;
+        let factor = factor(matrix)?;
+        let bounds = Bounds::new(&factor, system, state, equations, place)?;
+        let mut change = factor.solve(&right);
+        change -= bounds.correction(&change);
         let mut all = DVector::zeros(place.len());
         for (unknown, p) in place.iter().enumerate() {
             if let Place::Shared(at) = p {
@@ -175,40 +166,71 @@ impl Step {
             let step = right - &own.gain * shared;
             own.unknowns.iter().zip(step.iter()).for_each(|(&u, &value)| all[u] = value);
         }
-        Some(Self { change: all, owns, covariance })
+        Some(Self { change: all, owns, factor, bounds })
     }
 }
 
-/// The shared step under the equations, and the covariance that is left.
-fn bounded(
-    matrix: DMatrix<f64>,
-    right: &DVector<f64>,
-    system: &System,
-    state: &State,
-    equations: &[Equation],
-    place: &[Place],
-) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    let factor = factor(matrix)?;
-    let (mut change, mut covariance) = (factor.solve(right), factor.inverse());
-    if !equations.is_empty() {
-        let mut rows = DMatrix::<f64>::zeros(equations.len(), right.len());
+/// The equations seen from the shared unknowns: scaled rows and values.
+struct Bounds {
+    rows: Vec<Vec<(usize, f64)>>,
+    values: DVector<f64>,
+    /// The rows, turned by the covariance without equations.
+    spread: DMatrix<f64>,
+    missing: Cholesky<f64, Dyn>,
+}
+
+impl Bounds {
+    fn new(
+        factor: &Cholesky<f64, Dyn>,
+        system: &System,
+        state: &State,
+        equations: &[Equation],
+        place: &[Place],
+    ) -> Option<Self> {
+        let shared = |(unknown, value): (usize, f64)| match place[unknown] {
+            Place::Shared(at) => Some((at, value)),
+            _ => None,
+        };
+        let mut rows = Vec::with_capacity(equations.len());
         let mut values = DVector::<f64>::zeros(equations.len());
+        let mut spread = DMatrix::<f64>::zeros(factor.l_dirty().nrows(), equations.len());
         for (e, equation) in equations.iter().enumerate() {
             let row = equation.row(system, state);
             let length = row.iter().map(|(_, v)| v * v).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
             values[e] = equation.value(system, state) / length;
-            for (unknown, value) in row {
-                if let Place::Shared(at) = place[unknown] {
-                    rows[(e, at)] = value / length;
-                }
-            }
+            let row: Vec<_> = row.into_iter().filter_map(shared).collect();
+            row.iter().for_each(|&(at, value)| spread[(at, e)] = value / length);
+            rows.push(row.into_iter().map(|(at, value)| (at, value / length)).collect());
         }
-        let spread = &covariance * rows.transpose();
-        let missing = (&rows * &spread).cholesky()?;
-        change -= &spread * missing.solve(&(&rows * &change + values));
-        covariance -= &spread * missing.solve(&spread.transpose());
+        factor.solve_mut(&mut spread);
+        let mut bounds =
+            Self { missing: DMatrix::identity(0, 0).cholesky()?, rows, values, spread };
+        let mut missing = DMatrix::<f64>::zeros(equations.len(), equations.len());
+        for e in 0..equations.len() {
+            missing.set_column(e, &bounds.seen(bounds.spread.column(e)));
+            // Equations that follow from others to first order do no harm as long as all can hold.
+            missing[(e, e)] *= 1.0 + DEPENDENT;
+        }
+        bounds.missing = missing.cholesky()?;
+        Some(bounds)
     }
-    Some((change, covariance))
+
+    /// The rows times a vector.
+    fn seen(&self, vector: DVectorView<f64>) -> DVector<f64> {
+        let each = |row: &Vec<(usize, f64)>| row.iter().map(|&(at, x)| x * vector[at]).sum();
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(each))
+    }
+
+    /// What is missing from a step for the equations to hold.
+    fn correction(&self, change: &DVector<f64>) -> DVector<f64> {
+        let lacking = self.seen(change.as_view()) + &self.values;
+        &self.spread * self.missing.solve(&lacking)
+    }
+
+    /// What the equations take from the covariance.
+    fn known(&self) -> DMatrix<f64> {
+        &self.spread * self.missing.solve(&self.spread.transpose())
+    }
 }
 
 /// Cholesky, with a ridge far below what any region says, for what no region determines.
@@ -240,51 +262,4 @@ fn linearised(
         jacobian.set_column(k, &slope);
     }
     Some((jacobian, delta, unknowns))
-}
-
-impl Spread {
-    /// Covariance of linear functions, each a list of unknowns and factors.
-    pub fn of(&self, functions: &[Vec<(usize, f64)>]) -> DMatrix<f64> {
-        let parts: Vec<_> = functions.iter().map(|f| self.split(f)).collect();
-        DMatrix::from_fn(functions.len(), functions.len(), |a, b| {
-            let (one, other) = (&parts[a], &parts[b]);
-            let mut sum = 0.0;
-            for &(i, x) in &one.0 {
-                for &(j, y) in &other.0 {
-                    sum += x * y * self.shared[(i, j)];
-                }
-            }
-            for (i, x) in &one.1 {
-                for (_, y) in other.1.iter().filter(|(j, _)| j == i) {
-                    sum += x.dot(&(&self.owns[*i].inverse * y));
-                }
-            }
-            sum
-        })
-    }
-
-    /// A function's part in the shared unknowns, own ones replaced, and in each surface's own.
-    #[allow(clippy::type_complexity)]
-    fn split(&self, function: &[(usize, f64)]) -> (Vec<(usize, f64)>, Vec<(usize, DVector<f64>)>) {
-        let mut shared: Vec<(usize, f64)> = Vec::new();
-        let mut own: Vec<(usize, DVector<f64>)> = Vec::new();
-        for &(unknown, factor) in function {
-            match self.place[unknown] {
-                Place::Shared(at) => shared.push((at, factor)),
-                Place::Unused => {}
-                Place::Own(i, at) => {
-                    if own.iter().all(|(k, _)| *k != i) {
-                        own.push((i, DVector::zeros(self.owns[i].unknowns.len())));
-                    }
-                    own.iter_mut().filter(|(k, _)| *k == i).for_each(|(_, v)| v[at] += factor);
-                }
-            }
-        }
-        for (i, part) in &own {
-            let through = self.owns[*i].gain.transpose() * part;
-            let at = self.owns[*i].shared.iter().zip(through.iter());
-            shared.extend(at.map(|(&at, value)| (at, -value)));
-        }
-        (shared, own)
-    }
 }

@@ -1,14 +1,24 @@
 //! Systems whose solutions are known.
 
-use super::{Constrained, constrain};
+use super::{Constrained, Demands, Link};
 use crate::math::{Point, Unit, Vector, frame};
 use crate::surface::{Condensed, Cylinder, Plane, Sphere, Surface, direction};
+
+/// Everything that the data support, nobody asking.
+fn constrain(items: &[Condensed]) -> Constrained {
+    let mut found = super::constrain(items, &vec![Vec::new(); items.len()], &Demands::default());
+    let standing = |link: &Link| link.status != "refused" && !link.reason.starts_with("follows");
+    if let Ok(found) = &mut found {
+        found.links.retain(standing);
+    }
+    found.unwrap()
+}
 
 /// Standard deviation of a point, in sizes.
 const SIGMA: f64 = 1e-3;
 
 /// A patch of a plane, a tenth of the part wide, known by 400 points.
-fn plane(center: [f64; 3], normal: Vector) -> Condensed {
+pub fn plane(center: [f64; 3], normal: Vector) -> Condensed {
     let normal = Unit::new_normalize(normal);
     let (u, v) = frame(&normal);
     let center = Point::from(center);
@@ -20,7 +30,7 @@ fn plane(center: [f64; 3], normal: Vector) -> Condensed {
     Condensed::new(&Surface::Plane(Plane::through(center, normal)), &points, SIGMA).unwrap()
 }
 
-fn cylinder(point: [f64; 3], axis: Vector, radius: f64) -> Condensed {
+pub fn cylinder(point: [f64; 3], axis: Vector, radius: f64) -> Condensed {
     let axis = Unit::new_normalize(axis);
     let (u, v) = frame(&axis);
     let point = Point::from(point);
@@ -33,7 +43,7 @@ fn cylinder(point: [f64; 3], axis: Vector, radius: f64) -> Condensed {
     Condensed::new(&Surface::Cylinder(Cylinder { point, axis, radius }), &points, SIGMA).unwrap()
 }
 
-fn sphere(center: [f64; 3], radius: f64) -> Condensed {
+pub fn sphere(center: [f64; 3], radius: f64) -> Condensed {
     let center = Point::from(center);
     let at = |i: i32| {
         let (turn, height) = (f64::from(i) * 2.4, f64::from(i) / 100.0 - 1.0);
@@ -87,7 +97,8 @@ fn a_box_has_three_right_angles_and_keeps_its_chirality() {
         plane([0.5, 0.5, 0.9], Vector::new(e, -e, -1.0)),
     ]);
     let right = found.links.iter().filter(|link| link.kind == "orthogonal").count();
-    assert_eq!((right, found.links.len()), (3, 6));
+    let parallel = found.links.iter().filter(|link| link.kind == "parallel").count();
+    assert_eq!((right, parallel), (3, 3));
     for (i, j) in [(0, 2), (0, 4), (2, 4), (1, 3), (3, 5)] {
         assert!(cosine(&found, i, j).abs() < 1e-12);
     }
@@ -99,9 +110,15 @@ fn a_box_has_three_right_angles_and_keeps_its_chirality() {
 fn half_a_degree_of_draft_stays() {
     let draft = 0.5f64.to_radians();
     let drafted = plane([0.9, 0.5, 0.5], Vector::new(draft.cos(), 0.0, draft.sin()));
-    let found = constrain(&[plane([0.1, 0.5, 0.5], Vector::x()), drafted]);
+    let items = [plane([0.1, 0.5, 0.5], Vector::x()), drafted];
+    let found = constrain(&items);
     assert!(found.links.is_empty(), "{:?}", found.links);
     assert!((cosine(&found, 0, 1).acos() - draft).abs() < 1e-6);
+    let all = super::constrain(&items, &vec![Vec::new(); 2], &Demands::default()).unwrap();
+    let refused = &all.links[0];
+    assert_eq!((refused.kind, refused.status), ("parallel", "refused"));
+    assert!(refused.reason.starts_with("chi-squared would rise by"), "{}", refused.reason);
+    assert!((refused.after - 0.5).abs() < 1e-3);
 }
 
 #[test]

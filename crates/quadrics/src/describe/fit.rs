@@ -3,7 +3,7 @@
 use crate::math::Point;
 use crate::recognise::scene::{Marks, ROUNDING, Scene};
 use crate::surface::select::{self, Choice};
-use crate::surface::{Shape, Surface, refine};
+use crate::surface::{Scatter, Shape, Surface, refine};
 
 use super::confidence::{confidence, is_noteworthy};
 
@@ -30,6 +30,8 @@ pub struct Recognised {
     pub support: Vec<Point>,
     /// Standard deviation of one of them, as if they erred independently.
     pub sigma: f64,
+    /// How it may still move under the relations, once those hold.
+    pub scatter: Option<Scatter>,
 }
 
 /// Fits the faces of one region anew. `known` is the surface that it was recognised by; it stays
@@ -49,7 +51,7 @@ pub fn fit(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> 
     // The samples stand for all vertices, of which so many err independently.
     let independent = independent(gathered.total as f64, scene.evidence.independent);
     let sigma = sigma * (support.len() as f64 / independent.max(1.0)).sqrt();
-    Recognised { surface, confidence, runner_up, support, sigma }
+    Recognised { surface, confidence, runner_up, support, sigma, scatter: None }
 }
 
 /// Fewest and most independent samples of a region on a scan, whose waves are long: a small region
@@ -68,7 +70,14 @@ fn independent(vertices: f64, fraction: f64) -> f64 {
 /// Free-form, as far as we know.
 fn unexplained(known: &Surface) -> Recognised {
     let surface = known.clone();
-    Recognised { surface, confidence: 0.5, runner_up: None, support: Vec::new(), sigma: 0.0 }
+    Recognised {
+        surface,
+        confidence: 0.5,
+        runner_up: None,
+        support: Vec::new(),
+        sigma: 0.0,
+        scatter: None,
+    }
 }
 
 fn same_type(one: &Surface, other: &Surface) -> bool {

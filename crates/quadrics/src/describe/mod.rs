@@ -15,7 +15,7 @@ use crate::mesh::{Adjacency, NONE};
 use crate::partition::Regions;
 use crate::recognise::scene::{Marks, Scene};
 use crate::result::{Region, Side};
-use crate::surface::{Cylinder, Surface, centroid, uncertainty};
+use crate::surface::{Cylinder, Scatter, Surface, centroid, uncertainty};
 
 /// Regions between two looks at the clock.
 const CHUNK: usize = 32;
@@ -109,11 +109,22 @@ fn one(
         rms: deviations.map(|(rms, _)| rms * scale),
         max_deviation: deviations.map(|(_, most)| most * scale),
         mean_normal_deviation_deg: deviations.map(|_| turned / area.max(f64::MIN_POSITIVE)),
-        uncertainty: uncertainty(&surface, &found.support, found.sigma, out),
+        uncertainty: known(&surface, found, out),
         neighbours: Vec::new(),
         surface: surface.transformed(out),
     };
     (region, angles)
+}
+
+/// How well the parameters are known: under the relations where there are some.
+fn known(surface: &Surface, found: &Recognised, out: &Similarity) -> Vec<(&'static str, f64)> {
+    let Some(scatter) = &found.scatter else {
+        return uncertainty(surface, &found.support, found.sigma, out);
+    };
+    let anchor = |surface: &Surface| anchored(surface.clone(), &found.support);
+    let moved = scatter.moved.iter().map(|both| both.each_ref().map(anchor)).collect();
+    let scatter = Scatter { moved, ..scatter.clone() };
+    scatter.uncertainty(&anchor(&found.surface), out)
 }
 
 /// The surface with a plane's normal outward by the mesh, and the side of the material.
@@ -203,7 +214,8 @@ fn rayleigh(angles: &mut [f64]) -> f64 {
 }
 
 /// For every region the regions across its edges, ascending.
-fn neighbours(labels: &[u32], adjacency: &Adjacency, count: usize) -> Vec<Vec<u32>> {
+/// The regions that share an edge with each, ascending.
+pub fn neighbours(labels: &[u32], adjacency: &Adjacency, count: usize) -> Vec<Vec<u32>> {
     let mut pairs = Vec::new();
     for (face, &label) in labels.iter().enumerate() {
         for other in adjacency.neighbours[face] {

@@ -32,7 +32,7 @@ pub use refine::{Fit, centroid, refine, refine_within};
 pub use sphere::Sphere;
 pub use start::Samples;
 pub use torus::Torus;
-pub use uncertainty::uncertainty;
+pub use uncertainty::{Scatter, uncertainty};
 
 use crate::math::{Point, Similarity, Unit};
 use kind::Class;

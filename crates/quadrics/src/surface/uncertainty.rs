@@ -3,7 +3,7 @@
 //! The covariance of the fit's local unknowns (see [`super::refine`]) is carried over to the named
 //! parameters by their derivatives, taken by central differences.
 
-use nalgebra::{Const, DimMin, SMatrix, SVector};
+use nalgebra::{Const, DMatrix, DVector, DimMin, SMatrix, SVector};
 
 use super::kind::kind;
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
@@ -79,34 +79,70 @@ impl Spread<'_> {
         Const<N>: DimMin<Const<N>, Output = Const<N>>,
     {
         let covariance: SMatrix<f64, N, N> = covariance(&model, self.points)?;
-        let seen = |model: &M| {
-            Some(parameters(&surface(model)?.transformed(self.out), self.out.scaling()))
+        let covariance = covariance * (self.sigma * self.sigma);
+        let covariance = DMatrix::from_column_slice(N, N, covariance.as_slice());
+        let moved = |unknown: usize, step: f64| {
+            let mut along = SVector::<f64, N>::zeros();
+            along[unknown] = step;
+            surface(&model.moved(&along)?)
         };
-        let here = seen(&model)?;
-        let mut derivatives: Vec<Vec<SVector<f64, N>>> =
-            here.iter().map(|known| vec![SVector::zeros(); known.numbers.len()]).collect();
-        for unknown in 0..N {
-            let moved = |step: f64| {
-                let mut along = SVector::<f64, N>::zeros();
-                along[unknown] = step;
-                seen(&model.moved(&along)?)
-            };
-            let (more, less) = (moved(steps[unknown])?, moved(-steps[unknown])?);
-            for (known, rows) in derivatives.iter_mut().enumerate() {
-                for (number, row) in rows.iter_mut().enumerate() {
-                    let of = |there: &[Named]| there.get(known)?.numbers.get(number).copied();
-                    row[unknown] = (of(&more)? - of(&less)?) / (2.0 * steps[unknown]);
-                }
+        let both = |unknown: usize| {
+            let step = steps[unknown];
+            Some(([moved(unknown, step)?, moved(unknown, -step)?], step))
+        };
+        let moved = (0..N).map(both).collect::<Option<Vec<_>>>()?;
+        carried(&surface(&model)?, &moved, &covariance, self.out)
+    }
+}
+
+/// How a surface moves with its unknowns, and how well those are known.
+#[derive(Debug, Clone)]
+pub struct Scatter {
+    /// Covariance of the unknowns.
+    pub covariance: DMatrix<f64>,
+    /// The surface after each unknown became larger, and smaller, by [`Scatter::step`].
+    pub moved: Vec<[Surface; 2]>,
+    /// Step of the differences.
+    pub step: f64,
+}
+
+impl Scatter {
+    /// Standard deviation of every parameter of the surface, as [`uncertainty`] gives it.
+    pub fn uncertainty(&self, surface: &Surface, out: &Similarity) -> Vec<(&'static str, f64)> {
+        let moved: Vec<_> = self.moved.iter().map(|both| (both.clone(), self.step)).collect();
+        carried(surface, &moved, &self.covariance, out).unwrap_or_default()
+    }
+}
+
+/// From the covariance of unknowns to the parameters: `moved` has the surface on both sides of every
+/// unknown, and the step to them.
+fn carried(
+    surface: &Surface,
+    moved: &[([Surface; 2], f64)],
+    covariance: &DMatrix<f64>,
+    out: &Similarity,
+) -> Option<Vec<(&'static str, f64)>> {
+    let seen = |surface: &Surface| parameters(&surface.transformed(out), out.scaling());
+    let here = seen(surface);
+    let zero = DVector::<f64>::zeros(moved.len());
+    let mut derivatives: Vec<Vec<DVector<f64>>> =
+        here.iter().map(|known| vec![zero.clone(); known.numbers.len()]).collect();
+    for (unknown, ([more, less], step)) in moved.iter().enumerate() {
+        let (more, less) = (seen(more), seen(less));
+        for (known, rows) in derivatives.iter_mut().enumerate() {
+            for (number, row) in rows.iter_mut().enumerate() {
+                let of = |there: &[Named]| there.get(known)?.numbers.get(number).copied();
+                row[unknown] = (of(&more)? - of(&less)?) / (2.0 * step);
             }
         }
-        let deviation = |(known, rows): (&Named, &Vec<SVector<f64, N>>)| {
-            let rows = across(known, rows);
-            let variance: f64 = rows.iter().map(|row| row.dot(&(covariance * row))).sum();
-            (known.name, self.sigma * (variance / known.share()).max(0.0).sqrt() * known.unit())
-        };
-        let found: Vec<_> = here.iter().zip(&derivatives).map(deviation).collect();
-        found.iter().all(|(_, value)| value.is_finite()).then_some(found)
     }
+    let deviation = |(known, rows): (&Named, &Vec<DVector<f64>>)| {
+        let rows = across(known, rows);
+        let variance: f64 = rows.iter().map(|row| row.dot(&(covariance * row))).sum();
+        (known.name, (variance / known.share()).max(0.0).sqrt() * known.unit())
+    };
+    let found: Vec<_> = here.iter().zip(&derivatives).map(deviation).collect();
+    found.iter().all(|(_, value)| value.is_finite()).then_some(found)
 }
 
 /// What the numbers of a parameter are.
@@ -146,10 +182,10 @@ impl Named {
 }
 
 /// Derivatives without their part along the axis that a point may slide on.
-fn across<const N: usize>(known: &Named, rows: &[SVector<f64, N>]) -> Vec<SVector<f64, N>> {
+fn across(known: &Named, rows: &[DVector<f64>]) -> Vec<DVector<f64>> {
     let What::OnAxis(axis) = known.what else { return rows.to_vec() };
-    let along = rows[0] * axis.x + rows[1] * axis.y + rows[2] * axis.z;
-    rows.iter().zip(axis.iter()).map(|(row, part)| row - along * *part).collect()
+    let along = &rows[0] * axis.x + &rows[1] * axis.y + &rows[2] * axis.z;
+    rows.iter().zip(axis.iter()).map(|(row, part)| row - &along * *part).collect()
 }
 
 /// Every parameter of a surface in a part of that size.

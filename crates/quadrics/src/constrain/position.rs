@@ -1,0 +1,78 @@
+//! A place or a size that is known up to its covariance.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::cluster::Estimate;
+use super::gate::{self, Gate};
+use crate::math::Point;
+
+/// Where something is, in one or more numbers, and their covariance.
+pub struct Position {
+    /// Only things of one group are compared.
+    pub group: usize,
+    /// How many things it stands for.
+    pub count: usize,
+    /// Whether large groups attract: axes gather, sizes do not.
+    pub social: bool,
+    /// Where it is.
+    pub value: DVector<f64>,
+    /// Covariance of that.
+    pub covariance: DMatrix<f64>,
+    /// Where it was measured.
+    pub measured: Point,
+    /// Variance of the direction that leads elsewhere.
+    pub turn: f64,
+    /// Volume of the places that it might have been in.
+    pub volume: f64,
+    /// The user's tolerance, if there is one.
+    pub tolerance: Option<f64>,
+}
+
+impl Position {
+    /// Variance that the direction adds over the way between two measurements.
+    fn lever(&self, other: &Self) -> DMatrix<f64> {
+        let way = (self.measured - other.measured).norm_squared();
+        DMatrix::identity(self.value.len(), self.value.len()) * (way * self.turn.max(other.turn))
+    }
+
+    /// Chi-squared and number of equations of two being one.
+    pub fn chi_squared(&self, other: &Self) -> (f64, usize) {
+        let apart = &self.value - &other.value;
+        let covariance = &self.covariance + &other.covariance + self.lever(other);
+        let factor = covariance.cholesky();
+        (factor.map_or(f64::INFINITY, |f| apart.dot(&f.solve(&apart))), apart.len())
+    }
+}
+
+impl Estimate for Position {
+    fn log_odds(&self, other: &Self) -> Option<f64> {
+        if self.group != other.group {
+            return None;
+        }
+        let apart = &self.value - &other.value;
+        if let Some(tolerance) = self.tolerance {
+            return Gate::by_tolerance(tolerance, apart.norm());
+        }
+        let covariance = &self.covariance + &other.covariance + self.lever(other);
+        let before = if self.social { gate::joining(self.count, other.count) } else { 0.0 };
+        let volume = self.volume.max(other.volume);
+        gate::log_odds(&apart, &covariance, volume, before)
+    }
+
+    fn fused(&self, other: &Self) -> Self {
+        let total = (&self.covariance + &other.covariance).try_inverse();
+        let gain = total.map_or_else(|| self.covariance.clone() * 0.0, |t| &self.covariance * t);
+        let nearer = self.covariance.trace() <= other.covariance.trace();
+        Self {
+            group: self.group,
+            count: self.count + other.count,
+            social: self.social,
+            value: &self.value + &gain * (&other.value - &self.value),
+            covariance: &self.covariance - &gain * &self.covariance,
+            measured: if nearer { self.measured } else { other.measured },
+            turn: self.turn.max(other.turn),
+            volume: self.volume,
+            tolerance: self.tolerance,
+        }
+    }
+}
