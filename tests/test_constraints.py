@@ -6,14 +6,15 @@ import json
 from pathlib import Path
 
 import jsonschema
-import meshes
 import pytest
 
+import meshes
 import quadrics
 from quadrics import synth
 from quadrics.cli.main import main
 from quadrics.constraints import as_constraints
 from quadrics.result import Result
+from quadrics.surfaces import Cylinder
 
 SCHEMA = json.loads(
     (Path(quadrics.__file__).parent / "schema" / "constraints.json").read_text(encoding="utf-8")
@@ -31,8 +32,8 @@ def first(part: synth.Part) -> Result:
 
 
 def _bore(result: Result) -> tuple[int, float]:
-    bores = [r for r in result.regions if r.surface.type == "cylinder"]
-    return bores[0].id, bores[0].surface.parameters["radius"]
+    bores = [(r.id, r.surface) for r in result.regions]
+    return next((i, s.radius) for i, s in bores if isinstance(s, Cylinder))
 
 
 def test_a_fixed_radius_holds_and_the_regions_stay(part: synth.Part, first: Result) -> None:
@@ -41,8 +42,9 @@ def test_a_fixed_radius_holds_and_the_regions_stay(part: synth.Part, first: Resu
     jsonschema.validate(known, SCHEMA)
     again = quadrics.segment(part.mesh, constraints=known)
     assert (again.labels == first.labels).all()
-    found = again.regions[region].surface.parameters["radius"]
-    assert found == pytest.approx(radius * 1.001, rel=1e-9)
+    found = again.regions[region].surface
+    assert isinstance(found, Cylinder)
+    assert found.radius == pytest.approx(radius * 1.001, rel=1e-9)
 
 
 def test_relations_of_a_first_run_can_be_edited_and_given_back(

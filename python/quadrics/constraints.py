@@ -84,8 +84,7 @@ def for_core(constraints: object) -> bool | Demands:
     """Give what the core takes: True, False, or checked demands."""
     if isinstance(constraints, bool):
         return constraints
-    assert isinstance(constraints, Mapping)
-    return _core_form(constraints, "constraints")
+    return _core_form(as_constraints(constraints), "constraints")
 
 
 def _core_form(document: Mapping[str, Any], where: str) -> Demands:
@@ -106,7 +105,7 @@ def _core_form(document: Mapping[str, Any], where: str) -> Demands:
         parameter, value = entry.get("parameter"), entry.get("value")
         if not isinstance(parameter, str):
             raise OptionError(f"{at}: parameter is {parameter!r}: it must be a name such as radius")
-        values = list(value) if isinstance(value, list | tuple) else [value]
+        values: list[Any] = list(value) if isinstance(value, list | tuple) else [value]
         if not all(_is_number(number) for number in values):
             raise OptionError(f"{at}: value is {value!r}: it must be a number, or three in a list")
         region = _regions([entry.get("region")], at)[0]
@@ -128,8 +127,10 @@ def _entries(document: Mapping[str, Any], name: str, where: str) -> list[Mapping
 
 def _regions(value: Any, at: str) -> list[int]:
     """Whole numbers, or pairs of them, one after the other."""
-    entries = value if isinstance(value, list | tuple) else [None]
-    flat = [n for entry in entries for n in (entry if isinstance(entry, list | tuple) else [entry])]
+    entries: list[Any] = list(value) if isinstance(value, list | tuple) else [None]
+    flat: list[Any] = [
+        n for entry in entries for n in (entry if isinstance(entry, list | tuple) else [entry])
+    ]
     if not flat or not all(isinstance(n, int) and not isinstance(n, bool) and n >= 0 for n in flat):
         raise OptionError(f"{at}: regions are {value!r}: they must be whole numbers from 0")
     return flat

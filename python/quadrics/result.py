@@ -202,7 +202,10 @@ def _region(values: Mapping[str, Any], counts: Any) -> Region:
 
 
 def _relation(values: Mapping[str, Any]) -> Relation:
-    return Relation(**{**values, "regions": tuple(values["regions"])})
+    regions = (
+        tuple(entry) if isinstance(entry, list | tuple) else entry for entry in values["regions"]
+    )
+    return Relation(**{**values, "regions": tuple(regions)})
 
 
 def _region_dict(region: Region) -> dict[str, Any]:

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from quadrics.surfaces import AnalyticSurface
 
 if TYPE_CHECKING:
-    from quadrics.result import Region, Relation, Result
+    from quadrics.result import Dimension, Region, Relation, Result
 
 #: Longer tables scroll away; the rest is in segmentation.json.
 ROWS = 60
 HEADINGS = ("region", "type", "dimensions", "side", "rms", "max", "area", "faces")
 #: Words to the left, numbers to the right.
 LEFT = (False, True, True, True, False, False, False, False)
-RELATION_HEADINGS = ("relation", "regions", "value", "before", "after", "status")
-RELATION_LEFT = (True, True, False, False, False, True)
+RELATION_HEADINGS = ("relation", "regions", "value", "before", "after")
+RELATION_LEFT = (True, True, False, False, False)
+DIMENSION_HEADINGS = ("dimension", "regions", "value", "±")
+DIMENSION_LEFT = (True, True, False, False)
 #: So many regions of a relation are named.
 IDS = 8
 #: Of these a person thinks as sizes; where a surface lies is in segmentation.json.
@@ -34,11 +37,7 @@ def print_result(result: Result, folder: Path) -> None:
     """Print the table, the repairs, and where the files are."""
     _print_relations(result)
     unit = result.units or "units of the input"
-    rows = [_row(region) for region in result.regions[:ROWS]]
-    for line in _aligned([HEADINGS, *rows]):
-        print(line)
-    if len(result.regions) > ROWS:
-        print(f"... and {len(result.regions) - ROWS} more in segmentation.json")
+    _print_rows(HEADINGS, [_row(region) for region in result.regions], LEFT)
     print(f"\n{len(result.regions)} regions on {len(result.labels)} faces; lengths in {unit}; "
           f"noise {result.noise.position:.3g}; {result.timing['total_s']:.1f} s")  # fmt: skip
     for repair in result.repairs:
@@ -47,29 +46,58 @@ def print_result(result: Result, folder: Path) -> None:
 
 
 def _print_relations(result: Result) -> None:
-    """Print what holds between the surfaces, and how far the free fits were from it."""
-    shown = [relation for relation in result.relations if relation.status != "refused"]
-    if not shown:
-        return
-    print()
-    for line in _aligned([RELATION_HEADINGS, *map(_relation_row, shown[:ROWS])], RELATION_LEFT):
-        print(line)
-    if len(shown) > ROWS:
-        print(f"... and {len(shown) - ROWS} more in segmentation.json")
+    """Print what holds between the surfaces, how far the free fits were from it, and distances."""
+    shown = [relation for relation in result.relations if relation.status == "accepted"]
+    _print_rows(RELATION_HEADINGS, [_relation_row(r) for r in shown], RELATION_LEFT)
+    counts = [
+        f"{count} {status}"
+        for status in ("implied", "refused")
+        if (count := sum(r.status == status for r in result.relations))
+    ]
+    if counts:
+        print(f"... {' and '.join(counts)}, with reasons in segmentation.json")
+    between = [d for d in result.dimensions if d.rounded or d.kind in ("distance", "angle")]
+    _print_rows(DIMENSION_HEADINGS, [_dimension_row(d) for d in between], DIMENSION_LEFT)
+
+
+def _print_rows(
+    headings: tuple[str, ...], rows: list[tuple[str, ...]], left: tuple[bool, ...]
+) -> None:
+    """Print a table and how much of it is not shown; nothing where there are no rows."""
+    if rows:
+        print()
+        for line in _aligned([headings, *rows[:ROWS]], left):
+            print(line)
+        if len(rows) > ROWS:
+            print(f"... and {len(rows) - ROWS} more in segmentation.json")
 
 
 def _relation_row(relation: Relation) -> tuple[str, ...]:
-    ids = [str(number) for number in relation.regions[:IDS]]
-    more = [f"and {len(relation.regions) - IDS} more"] if len(relation.regions) > IDS else []
     unit = "°" if relation.residual_unit == "deg" else ""
     return (
         relation.kind.replace("_", " "),
-        " ".join([*ids, *more]),
+        _named(relation.regions),
         "" if relation.value is None else f"{relation.value:.5g}{unit}",
         f"{relation.residual_before:.2g}{unit}",
         f"{relation.residual_after:.0e}{unit}",
-        relation.status,
     )
+
+
+def _dimension_row(dimension: Dimension) -> tuple[str, ...]:
+    unit = "°" if dimension.kind in ("half_angle", "angle") else ""
+    return (
+        dimension.kind.replace("_", " "),
+        _named(dimension.regions),
+        f"{dimension.value:.5g}{unit}",
+        "rounded" if dimension.rounded else f"{dimension.uncertainty:.1g}{unit}",
+    )
+
+
+def _named(regions: Sequence[int | tuple[int, int]]) -> str:
+    """Name the first regions, or pairs of them."""
+    ids = ["-".join(map(str, r)) if isinstance(r, tuple) else str(r) for r in regions[:IDS]]
+    more = [f"and {len(regions) - IDS} more"] if len(regions) > IDS else []
+    return " ".join([*ids, *more])
 
 
 def dimensions(region: Region) -> str:
@@ -102,7 +130,7 @@ def _row(region: Region) -> tuple[str, ...]:
     )
 
 
-def _aligned(rows: list[tuple[str, ...]], left: tuple[bool, ...] = LEFT) -> list[str]:
+def _aligned(rows: list[tuple[str, ...]], left: tuple[bool, ...]) -> list[str]:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return [
         "  ".join(

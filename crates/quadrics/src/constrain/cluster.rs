@@ -48,15 +48,15 @@ pub fn agglomerate<E: Estimate>(estimates: Vec<E>, rules: &Rules) -> (Vec<usize>
         let Some((_, i, j)) = top else { break };
         work.join(i, j);
         best[j] = None;
-        for k in 0..count {
-            let touched = k == i || best[k].is_some_and(|(_, other)| other == i || other == j);
+        for (k, known) in best.iter_mut().enumerate() {
+            let touched = k == i || known.is_some_and(|(_, other)| other == i || other == j);
             if touched {
-                best[k] = work.partner(k);
+                *known = work.partner(k);
             } else if k < i
                 && let Some(o) = work.odds(k, i)
-                && best[k].is_none_or(|(known, _)| o > known)
+                && known.is_none_or(|(best, _)| o > best)
             {
-                best[k] = Some((o, i));
+                *known = Some((o, i));
             }
         }
     }

@@ -30,8 +30,7 @@ pub fn lean(a: &Surface, b: &Surface) -> f64 {
     a.dot(&b).abs().min(1.0).asin().to_degrees()
 }
 
-/// A point of an axis and its direction.
-pub fn on_axis(surface: &Surface) -> Option<(Point, Unit)> {
+fn on_axis(surface: &Surface) -> Option<(Point, Unit)> {
     match surface {
         Surface::Cylinder(s) => Some((s.point, s.axis)),
         Surface::Cone(s) => Some((s.apex, s.axis)),
@@ -47,8 +46,7 @@ pub fn off_axis(a: &Surface, b: &Surface) -> f64 {
     between.cross(&axis).norm()
 }
 
-/// Centre of a sphere or torus.
-pub fn center(surface: &Surface) -> Option<Point> {
+fn center(surface: &Surface) -> Option<Point> {
     match surface {
         Surface::Sphere(s) => Some(s.center),
         Surface::Torus(s) => Some(s.center),
@@ -65,4 +63,19 @@ pub fn off_center(a: &Surface, b: &Surface) -> f64 {
 pub fn off_plane(a: &Surface, b: &Surface) -> f64 {
     let (Surface::Plane(a), Surface::Plane(b)) = (a, b) else { return 0.0 };
     (a.offset - b.offset * a.normal.dot(&b.normal).signum()).abs()
+}
+
+/// Difference of two radii.
+pub fn off_radius(a: &Surface, b: &Surface) -> f64 {
+    radius(a).zip(radius(b)).map_or(0.0, |(a, b)| (a - b).abs())
+}
+
+/// Difference of two half angles, in degrees.
+pub fn off_angle(a: &Surface, b: &Surface) -> f64 {
+    (angle(a) - angle(b)).abs()
+}
+
+/// Whether a surface has an axis line.
+pub fn has_axis(surface: &Surface) -> bool {
+    on_axis(surface).is_some()
 }

@@ -7,7 +7,9 @@
 //! ([`equation`]), admitted one at a time ([`admit`], [`weigh`]).
 
 mod admit;
+mod alike;
 mod asked;
+mod bounds;
 mod build;
 mod classes;
 mod cluster;
@@ -19,6 +21,7 @@ mod gaps;
 mod gate;
 mod measure;
 mod mirror;
+mod orient;
 mod pattern;
 mod places;
 mod position;

@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 
 use super::classes::Classes;
 use super::equation::Equation;
+use super::measure::has_axis;
 use super::places::View;
 use crate::math::{Unit, frame};
 use crate::surface::{Condensed, Surface, direction};
@@ -100,9 +101,7 @@ impl Part<'_> {
 
     /// One surface of every axis line.
     pub fn lines(&self) -> Vec<usize> {
-        self.speakers(&self.classes.line, |s| {
-            matches!(s, Surface::Cylinder(_) | Surface::Cone(_) | Surface::Torus(_))
-        })
+        self.speakers(&self.classes.line, has_axis)
     }
 
     /// One plane of every set of coplanar ones.

@@ -3,11 +3,11 @@
 use nalgebra::DVector;
 
 use super::gate;
-use super::measure::{angle, off_axis, off_center, off_plane, radius, tilt};
+use super::measure::{off_angle, off_axis, off_center, off_plane, off_radius, radius, tilt};
 use super::position::Position;
 use super::proposal::Part;
 use super::report::Link;
-use crate::surface::{Surface, direction};
+use crate::surface::Surface;
 
 /// What deviates less than this, in radians and sizes, is worth a word when it is refused.
 pub const NEAR: f64 = 0.02;
@@ -17,8 +17,7 @@ pub fn near_misses(part: &Part) -> Vec<Link> {
     let view = &part.view;
     let mut links = Vec::new();
     let classes = part.classes;
-    let everything: fn(&Surface) -> bool = |s| direction(s).is_some();
-    let speakers = part.speakers(&classes.direction, everything);
+    let speakers = part.speakers(&classes.direction, |_| true);
     nearest(part, "parallel", &speakers, tilt, |i, j| tilted(part, i, j), &mut links);
     let places = |of: &dyn Fn(usize) -> Option<Position>, i: usize, j: usize| {
         let (one, other) = (of(i)?, of(j)?);
@@ -36,14 +35,11 @@ pub fn near_misses(part: &Part) -> Vec<Link> {
     let centers = |i, j| places(&|k| view.center(k), i, j);
     nearest(part, "concentric", &balls, off_center, centers, &mut links);
     let round = first(&classes.radius, &|s| radius(s).is_some());
-    let in_radius: fn(&Surface, &Surface) -> f64 =
-        |a, b| (radius(a).unwrap_or(0.0) - radius(b).unwrap_or(0.0)).abs();
     let radii = |i, j| places(&|k| view.radius(k), i, j);
-    nearest(part, "equal_radius", &round, in_radius, radii, &mut links);
+    nearest(part, "equal_radius", &round, off_radius, radii, &mut links);
     let cones = first(&classes.angle, &|s| matches!(s, Surface::Cone(_)));
-    let in_angle: fn(&Surface, &Surface) -> f64 = |a, b| (angle(a) - angle(b)).abs();
     let angles = |i, j| places(&|k| view.angle(k), i, j);
-    nearest(part, "equal_angle", &cones, in_angle, angles, &mut links);
+    nearest(part, "equal_angle", &cones, off_angle, angles, &mut links);
     links
 }
 

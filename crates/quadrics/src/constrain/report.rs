@@ -5,13 +5,12 @@ use super::classes::Classes;
 use super::demands::Demand;
 use super::equation::{Equation, place};
 use super::gate;
-use super::measure::{angle, lean, off_axis, off_center, off_plane, radius, tilt};
 use super::proposal::{Part, Proposal};
 use super::refusals::NEAR;
 use super::system::System;
 use super::weigh::Outcome;
 use crate::math::{Point, Unit, Vector};
-use crate::surface::{Condensed, Surface, direction};
+use crate::surface::direction;
 
 /// A relation between surfaces, by their positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,117 +48,6 @@ pub enum Value {
     Direction(Unit),
     /// Offset of the plane whose normal stands before it.
     Offset(f64),
-}
-
-/// A class of equal things: its kind, members and measure.
-type Measure = fn(&Surface, &Surface) -> f64;
-
-/// Classes of equal things and right angles, in the order of the stages.
-pub fn links(part: &Part, angles: &[(Equation, Verdict)]) -> Vec<Link> {
-    let mut links = classes(part);
-    for (equation, verdict) in angles {
-        let Equation::Orthogonal(a, b) = equation else { continue };
-        links.extend(right_angle(part, *a, *b, verdict));
-    }
-    links
-}
-
-fn classes(part: &Part) -> Vec<Link> {
-    let Classes { direction: directions, line, center, offset, radius: radii, angle: angles } =
-        part.classes;
-    let directed: fn(&Surface) -> bool = |s| direction(s).is_some();
-    let lined: fn(&Surface) -> bool =
-        |s| matches!(s, Surface::Cylinder(_) | Surface::Cone(_) | Surface::Torus(_));
-    let centred: fn(&Surface) -> bool = |s| matches!(s, Surface::Sphere(_) | Surface::Torus(_));
-    let flat: fn(&Surface) -> bool = |s| matches!(s, Surface::Plane(_));
-    let round: fn(&Surface) -> bool = |s| radius(s).is_some();
-    let conical: fn(&Surface) -> bool = |s| matches!(s, Surface::Cone(_));
-    let in_radius: Measure = |a, b| (radius(a).unwrap_or(0.0) - radius(b).unwrap_or(0.0)).abs();
-    let in_angle: Measure = |a, b| (angle(a) - angle(b)).abs();
-    let kinds = [
-        ("parallel", directions, directed, tilt as Measure),
-        ("coaxial", line, lined, off_axis),
-        ("concentric", center, centred, off_center),
-        ("coplanar", offset, flat, off_plane),
-        ("equal_radius", radii, round, in_radius),
-        ("equal_angle", angles, conical, in_angle),
-    ];
-    let of = |(kind, class, member, measure): (
-        &'static str,
-        &Vec<usize>,
-        fn(&Surface) -> bool,
-        Measure,
-    )| {
-        let has = |i: &usize| member(&part.items[*i].surface);
-        let link = move |members| shared(part, kind, members, measure);
-        groups(class, has).into_iter().map(link).collect::<Vec<_>>()
-    };
-    kinds.into_iter().flat_map(of).collect()
-}
-
-/// One class of equal things.
-fn shared(part: &Part, kind: &'static str, surfaces: Vec<usize>, of: Measure) -> Link {
-    let worst = |surface: &dyn Fn(usize) -> Surface| {
-        let all: Vec<Surface> = surfaces.iter().map(|&i| surface(i)).collect();
-        let pairs = all.iter().flat_map(|a| all.iter().map(move |b| (a, b)));
-        pairs.map(|(a, b)| of(a, b)).fold(0.0, f64::max)
-    };
-    let wanted = part.view.demands.joins(kind, &surfaces);
-    let most = surfaces.iter().map(|&i| part.view.solution.increase[i]).fold(0.0, f64::max);
-    let by = if wanted { "; the user wants it" } else { "" };
-    Link {
-        kind,
-        status: "accepted",
-        value: value(kind, &part.surfaces[surfaces[0]]),
-        parameters: Vec::new(),
-        before: worst(&|i| part.items[i].surface.clone()),
-        after: worst(&|i| part.surfaces[i].clone()),
-        angular: ["parallel", "equal_angle"].contains(&kind),
-        reason: format!(
-            "one unknown for {} surfaces; chi-squared of the worst rises by {most:.1} in all{by}",
-            surfaces.len()
-        ),
-        surfaces,
-    }
-}
-
-/// A right angle between two direction classes: every member of both is named, the surest of each
-/// first, whose equation it is.
-fn right_angle(part: &Part, a: usize, b: usize, verdict: &Verdict) -> Vec<Link> {
-    let (one, other) = (surest(part.items, part.classes, a), surest(part.items, part.classes, b));
-    let (Some(&first), Some(&second)) = (one.first(), other.first()) else { return Vec::new() };
-    let free = |i: usize| &part.items[i].surface;
-    let class = &part.classes.direction;
-    let forced = part.view.demands.forced().any(|demand| {
-        let ends = [class[demand.regions[0]], class[demand.regions[1]]];
-        demand.kind == "orthogonal" && (ends == [a, b] || ends == [b, a])
-    });
-    let link = |i: usize, j: usize, status, reason| Link {
-        kind: "orthogonal",
-        surfaces: vec![i, j],
-        status,
-        value: None,
-        parameters: Vec::new(),
-        before: lean(free(i), free(j)),
-        after: lean(&part.surfaces[i], &part.surfaces[j]),
-        angular: true,
-        reason,
-    };
-    let (status, reason) = match verdict {
-        Verdict::Refused(_) if lean(free(first), free(second)) > NEAR.to_degrees() => {
-            return Vec::new();
-        }
-        verdict => told(verdict, 1, forced),
-    };
-    let mut links = vec![link(first, second, status, reason)];
-    if status != "refused" {
-        for k in 1..one.len().max(other.len()) {
-            let (i, j) = (one[k % one.len()], other[k % other.len()]);
-            let reason = "follows from parallel and one right angle".to_owned();
-            links.push(link(i, j, "implied", reason));
-        }
-    }
-    links
 }
 
 /// Relations that equations say.
@@ -220,7 +108,7 @@ pub fn vain(demand: &Demand) -> Link {
 }
 
 /// Status and reason.
-fn told(verdict: &Verdict, count: usize, forced: bool) -> (&'static str, String) {
+pub fn told(verdict: &Verdict, count: usize, forced: bool) -> (&'static str, String) {
     let limit = gate::limit(count);
     match *verdict {
         Verdict::Accepted(chi) if forced && chi > limit => {
@@ -277,29 +165,5 @@ fn parameters(part: &Part, proposal: &Proposal) -> Vec<(&'static str, Value)> {
             vec![("normal", Value::Direction(normal)), ("offset", Value::Offset(offset))]
         }
         _ => Vec::new(),
-    }
-}
-
-/// Members of a direction class, the one whose direction is known best first.
-fn surest(items: &[Condensed], classes: &Classes, class: usize) -> Vec<usize> {
-    let spread = |i: usize| Some((items[i].direction()?.1.trace(), i));
-    let members = (0..items.len()).filter(|i| classes.direction[*i] == class);
-    let mut known: Vec<(f64, usize)> = members.filter_map(spread).collect();
-    known.sort_by(|a, b| a.0.total_cmp(&b.0));
-    known.into_iter().map(|(_, i)| i).collect()
-}
-
-/// Classes of more than one surface, of those that can be in one.
-fn groups(class: &[usize], member: impl Fn(&usize) -> bool) -> Vec<Vec<usize>> {
-    let mut groups: std::collections::BTreeMap<usize, Vec<usize>> = Default::default();
-    (0..class.len()).filter(member).for_each(|i| groups.entry(class[i]).or_default().push(i));
-    groups.into_values().filter(|members| members.len() > 1).collect()
-}
-
-fn value(kind: &str, surface: &Surface) -> Option<f64> {
-    match kind {
-        "equal_radius" => radius(surface),
-        "equal_angle" => Some(angle(surface)),
-        _ => None,
     }
 }

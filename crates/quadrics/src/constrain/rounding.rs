@@ -1,5 +1,7 @@
 //! The dimensions of a drawing, and their rounding to a grid.
 
+use std::collections::BTreeMap;
+
 use super::equation::{Equation, Size};
 use super::gaps;
 use super::proposal::{Part, Proposal};
@@ -31,42 +33,58 @@ const TOLD: f64 = 2.0;
 /// A dimension may lie this many standard deviations beside the grid.
 const BESIDE: f64 = 3.0;
 
-/// All dimensions, with the equation that fixes each to a value.
-fn all(part: &Part) -> Vec<(Dimension, Box<dyn Fn(f64) -> Equation>)> {
-    let mut found: Vec<(Dimension, Box<dyn Fn(f64) -> Equation>)> = Vec::new();
-    let mut add = |kind, surfaces: Vec<usize>, value, equation: Box<dyn Fn(f64) -> Equation>| {
-        let row = equation(value).row(part.view.system, &part.view.solution.state);
+/// What a dimension measures.
+#[derive(Clone, Copy)]
+enum Measured {
+    /// A size that the class of this surface shares.
+    Size(usize, Size),
+    /// The distance of two planes.
+    Distance([usize; 2]),
+    /// The angle between two directions.
+    Angle([usize; 2]),
+}
+
+impl Measured {
+    /// The equation that gives it a value.
+    fn fixed(self, value: f64) -> Equation {
+        match self {
+            Self::Size(surface, size) => Equation::Size { surface, size, value },
+            Self::Distance(ends) => Equation::Distance(ends, value),
+            Self::Angle(ends) => Equation::Angle(ends, value),
+        }
+    }
+}
+
+/// All dimensions, and what they measure.
+fn all(part: &Part) -> Vec<(Dimension, Measured)> {
+    let told = |kind, surfaces: Vec<usize>, value: f64, measured: Measured| {
+        let row = measured.fixed(value).row(part.view.system, &part.view.solution.state);
         let sigma = part.view.solution.spread.of(&[row])[(0, 0)].max(0.0).sqrt();
-        found.push((Dimension { kind, surfaces, value, sigma, rounded: false }, equation));
+        (Dimension { kind, surfaces, value, sigma, rounded: false }, measured)
     };
-    let radii = [("radius", Size::Radius), ("minor_radius", Size::MinorRadius)];
-    let sizes = radii.map(|(kind, size)| (kind, size, &part.classes.radius));
     let own: Vec<usize> = (0..part.surfaces.len()).collect();
-    let others = [
+    let sizes = [
+        ("radius", Size::Radius, &part.classes.radius),
+        ("minor_radius", Size::MinorRadius, &part.classes.radius),
         ("major_radius", Size::MajorRadius, &own),
         ("half_angle", Size::HalfAngle, &part.classes.angle),
     ];
-    for (kind, size, class) in sizes.into_iter().chain(others) {
-        let mut classes: std::collections::BTreeMap<usize, Vec<usize>> = Default::default();
+    let mut found = Vec::new();
+    for (kind, size, class) in sizes {
+        let mut classes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         let has = |i: &usize| size.of(&part.surfaces[*i]).is_some();
         own.iter().copied().filter(has).for_each(|i| classes.entry(class[i]).or_default().push(i));
         for members in classes.into_values() {
             let surface = members[0];
             let Some(value) = size.of(&part.surfaces[surface]) else { continue };
-            add(
-                kind,
-                members,
-                value,
-                Box::new(move |value| Equation::Size { surface, size, value }),
-            );
+            found.push(told(kind, members, value, Measured::Size(surface, size)));
         }
     }
-    for (value, ends) in gaps::distances(part) {
-        add("distance", ends.to_vec(), value, Box::new(move |v| Equation::Distance(ends, v)));
-    }
-    for (value, ends) in gaps::angles(part) {
-        add("angle", ends.to_vec(), value, Box::new(move |v| Equation::Angle(ends, v)));
-    }
+    let between = |kind, of: fn([usize; 2]) -> Measured| {
+        move |(value, ends): (f64, [usize; 2])| told(kind, ends.to_vec(), value, of(ends))
+    };
+    found.extend(gaps::distances(part).into_iter().map(between("distance", Measured::Distance)));
+    found.extend(gaps::angles(part).into_iter().map(between("angle", Measured::Angle)));
     found
 }
 
@@ -83,14 +101,14 @@ pub fn dimensions(part: &Part, rounded: &[Proposal]) -> Vec<Dimension> {
 /// Dimensions onto the user's grid, where the data tell the grid's lines apart and one is near.
 pub fn proposals(part: &Part) -> Vec<Proposal> {
     let grid = part.view.demands.grid;
-    let near = |(dimension, equation): (Dimension, Box<dyn Fn(f64) -> Equation>)| {
+    let near = |(dimension, measured): (Dimension, Measured)| {
         let step = if dimension.angular() { grid.angle } else { grid.length }?;
         let target = (dimension.value / step).round() * step;
         let told = dimension.sigma * TOLD < step && target > 0.0;
         let beside = (dimension.value - target).abs() < BESIDE * dimension.sigma.max(1e-9);
         (told && beside).then(|| Proposal {
             forced: true,
-            ..Proposal::new("rounded", dimension.surfaces, vec![equation(target)], step)
+            ..Proposal::new("rounded", dimension.surfaces, vec![measured.fixed(target)], step)
         })
     };
     all(part).into_iter().filter_map(near).collect()

@@ -1,14 +1,13 @@
 //! The stages in which relations are added, and rolled back where the data refuse them.
 
-use super::admit::{Candidate, Verdict, admit};
+use super::admit::Verdict;
+use super::alike;
 use super::asked;
 use super::classes::{Classes, evict};
 use super::contact;
 use super::demands::{Demand, Demands};
-use super::directions;
 use super::equation::Equation;
 use super::gaps;
-use super::gate;
 use super::mirror;
 use super::pattern;
 use super::places::View;
@@ -21,14 +20,8 @@ use super::system::System;
 use super::weigh::{Outcome, weigh};
 use super::{Constrained, Dimension};
 use crate::math::Unit;
-use crate::surface::{Condensed, Surface, direction};
+use crate::surface::{Condensed, Surface};
 
-/// Range of the cosine between two directions.
-const COSINES: f64 = 2.0;
-/// Directions whose cosine is larger are no candidates for a right angle.
-const OBLIQUE: f64 = 0.3;
-/// Sine of the angle between directions that equations made one.
-const PARALLEL: f64 = 1e-9;
 /// Increase of chi-squared of one surface that no set of relations may ask for.
 const TOO_MUCH: f64 = 40.0;
 /// What follows from the others holds to this, in radians and sizes.
@@ -38,15 +31,16 @@ const EVICTIONS: usize = 20;
 
 /// Surfaces on their way through the stages.
 pub struct Work<'a> {
-    items: &'a [Condensed],
+    pub(super) items: &'a [Condensed],
     neighbours: &'a [Vec<usize>],
-    demands: &'a Demands,
-    classes: Classes,
-    directions: Vec<Unit>,
-    angles: Vec<(Equation, Verdict)>,
+    pub(super) demands: &'a Demands,
+    pub(super) classes: Classes,
+    pub(super) directions: Vec<Unit>,
+    /// Right angles between classes of directions.
+    pub(super) angles: Vec<(Equation, Verdict)>,
     related: Vec<(Proposal, Outcome)>,
     vain: Vec<&'a Demand>,
-    solved: Option<(System, Solution)>,
+    pub(super) solved: Option<(System, Solution)>,
 }
 
 impl<'a> Work<'a> {
@@ -67,7 +61,11 @@ impl<'a> Work<'a> {
     }
 
     /// Solves under the present equations.
-    fn solve(&self, classes: &Classes, directions: &[Unit]) -> Option<(System, Solution)> {
+    pub(super) fn solve(
+        &self,
+        classes: &Classes,
+        directions: &[Unit],
+    ) -> Option<(System, Solution)> {
         let system = System::new(self.items, classes, directions);
         let solution = solve(self.items, &system, &system.state, &self.equations())?;
         Some((system, solution))
@@ -78,81 +76,6 @@ impl<'a> Work<'a> {
         let right = self.angles.iter().filter(|(_, v)| matches!(v, Verdict::Accepted(_)));
         let others = self.related.iter().flat_map(|(_, outcome)| outcome.equations.clone());
         right.map(|(e, _)| e.clone()).chain(others).collect()
-    }
-
-    /// Parallel classes, then right angles between them.
-    pub fn orient(&mut self) {
-        let rules = self.demands.rules("parallel");
-        let (class, directions) = directions::parallel(self.items, &rules, self.demands.gate);
-        self.classes.direction = class;
-        self.directions = directions;
-        let Some((system, solution)) = self.solve(&self.classes, &self.directions) else { return };
-        let candidates = self.right_angles(&system, &solution);
-        let (verdicts, state) =
-            admit(&system, &solution.state, &solution.spread, &candidates, self.demands.gate);
-        self.angles = candidates.into_iter().map(|c| c.equation).zip(verdicts).collect();
-        self.directions = state.directions;
-        self.unite();
-        self.solved = self.solve(&self.classes, &self.directions);
-        if self.solved.is_none() {
-            self.angles.clear();
-            self.solved = Some((system, solution));
-        }
-    }
-
-    fn right_angles(&self, system: &System, solution: &Solution) -> Vec<Candidate> {
-        let count = self.directions.len();
-        let class = &self.classes.direction;
-        let size = |number: usize| {
-            let one =
-                |&i: &usize| class[i] == number && direction(&self.items[i].surface).is_some();
-            (0..self.items.len()).filter(one).count()
-        };
-        // Between the classes of the surfaces that the user names.
-        let named = |a: usize, b: usize, forced: bool| {
-            let between = |demand: &&Demand| {
-                let ends = [class[demand.regions[0]], class[demand.regions[1]]];
-                demand.kind == "orthogonal"
-                    && demand.forced == forced
-                    && (ends == [a, b] || ends == [b, a])
-            };
-            self.demands.relations.iter().any(|demand| between(&demand))
-        };
-        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
-        pairs
-            .filter(|&(a, b)| !named(a, b, false))
-            .map(|(a, b)| Candidate {
-                equation: Equation::Orthogonal(a, b),
-                range: COSINES,
-                before: gate::joining(size(a), size(b)),
-                forced: named(a, b, true),
-            })
-            .filter(|c| c.forced || c.equation.value(system, &solution.state).abs() < OBLIQUE)
-            .collect()
-    }
-
-    /// Directions that right angles made parallel are one.
-    fn unite(&mut self) {
-        let count = self.directions.len();
-        for (a, b) in (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))) {
-            if self.directions[a].cross(&self.directions[b]).norm() > PARALLEL {
-                continue;
-            }
-            self.classes.direction.iter_mut().filter(|c| **c == b).for_each(|c| *c = a);
-            let one = |class: usize| if class == b { a } else { class };
-            // What was said of both is said once.
-            for (equation, verdict) in std::mem::take(&mut self.angles) {
-                let Equation::Orthogonal(i, j) = equation else { continue };
-                let (i, j) = (one(i), one(j));
-                let equation = Equation::Orthogonal(i.min(j), i.max(j));
-                let known = self.angles.iter_mut().find(|(other, _)| *other == equation);
-                match known {
-                    Some((_, old)) if matches!(verdict, Verdict::Accepted(_)) => *old = verdict,
-                    Some(_) => {}
-                    None => self.angles.push((equation, verdict)),
-                }
-            }
-        }
     }
 
     /// One stage of equalities; surfaces that would have to move too far stay as they were, unless
@@ -301,7 +224,7 @@ impl<'a> Work<'a> {
             return Constrained { surfaces: free, links, dimensions, scatters };
         };
         let part = self.part(&solved);
-        let mut links = report::links(&part, &self.angles);
+        let mut links = alike::links(&part, &self.angles);
         links.extend(report::equations(&part, &self.related));
         links.extend(self.vain.iter().map(|demand| report::vain(demand)));
         links.extend(refusals::near_misses(&part));
