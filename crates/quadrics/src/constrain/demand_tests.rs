@@ -106,6 +106,7 @@ fn dimensions_are_told_and_rounded_where_the_data_allow_it() {
         (known.value, known.rounded)
     };
     assert!((value("radius", 0).0 - 0.1).abs() < 1e-12 && value("radius", 0).1);
+    assert!(found.dimensions.iter().filter(|d| d.rounded).count() == 2);
     assert!((value("radius", 1).0 - 0.1043).abs() < 1e-4 && !value("radius", 1).1);
     assert!((value("distance", 2).0 - 0.8).abs() < 1e-12);
 }

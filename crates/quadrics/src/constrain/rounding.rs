@@ -53,6 +53,17 @@ impl Measured {
             Self::Angle(ends) => Equation::Angle(ends, value),
         }
     }
+
+    /// Whether an equation gives it a value.
+    fn is_fixed_by(self, equation: &Equation) -> bool {
+        let (Equation::Size { value, .. }
+        | Equation::Distance(_, value)
+        | Equation::Angle(_, value)) = equation
+        else {
+            return false;
+        };
+        *equation == self.fixed(*value)
+    }
 }
 
 /// All dimensions, and what they measure.
@@ -88,14 +99,13 @@ fn all(part: &Part) -> Vec<(Dimension, Measured)> {
     found
 }
 
-/// Dimensions as they are; those between the same surfaces as a rounded one are marked.
+/// Dimensions as they are; those that a relation of `rounded` fixes are marked.
 pub fn dimensions(part: &Part, rounded: &[Proposal]) -> Vec<Dimension> {
-    let marked = |mut dimension: Dimension| {
-        let same = |p: &Proposal| p.surfaces == dimension.surfaces;
-        dimension.rounded = rounded.iter().any(same);
-        dimension
+    let marked = |(dimension, measured): (Dimension, Measured)| {
+        let fixed = |p: &Proposal| p.equations.iter().any(|e| measured.is_fixed_by(e));
+        Dimension { rounded: rounded.iter().any(fixed), ..dimension }
     };
-    all(part).into_iter().map(|(dimension, _)| marked(dimension)).collect()
+    all(part).into_iter().map(marked).collect()
 }
 
 /// Dimensions onto the user's grid, where the data tell the grid's lines apart and one is near.
