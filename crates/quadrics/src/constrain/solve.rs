@@ -13,10 +13,11 @@ use crate::surface::Condensed;
 
 /// Most steps; 4 are the rule.
 const ITERATIONS: usize = 20;
-/// A step of this length, in sizes and radians, is the last one.
-const SETTLED: f64 = 1e-11;
-/// All equations hold to this in the end, in sizes and radians.
-const HOLDS: f64 = 1e-10;
+/// A step of this length, in sizes and radians, is the last one; the next would be its square, or
+/// rounding along what the equations hardly determine.
+const SETTLED: f64 = 1e-8;
+/// All equations hold to this in the end, in sizes and radians; mostly to 1e-13.
+const HOLDS: f64 = 1e-9;
 /// Step of the differences.
 pub const STEP: f64 = 1e-6;
 
@@ -46,7 +47,8 @@ pub fn solve(
         if step.change.amax().is_nan() || step.change.amax() > 1.0 {
             return None;
         }
-        if step.change.amax() < SETTLED {
+        let held = || equations.iter().all(|e| e.value(system, &state).abs() < HOLDS / 10.0);
+        if step.change.amax() < SETTLED && held() {
             break;
         }
     }
