@@ -19,11 +19,7 @@ pub fn impose(
     demands: &Demands,
     out: &Similarity,
 ) -> Result<(Vec<Relation>, Vec<Dimension>)> {
-    let (at, items): (Vec<usize>, Vec<Condensed>) = fits
-        .iter()
-        .enumerate()
-        .filter_map(|(i, fit)| Some((i, Condensed::new(&fit.surface, &fit.support, fit.sigma)?)))
-        .unzip();
+    let (at, items) = condensed(fits);
     let places = Places { at: &at, fits };
     let demands = places.inward(demands, out)?;
     let place = |region: &u32| at.binary_search(&(*region as usize)).ok();
@@ -62,6 +58,20 @@ pub fn impose(
         }
     };
     Ok((links.into_iter().map(relation).collect(), dimensions.collect()))
+}
+
+/// Moves the surfaces of regions that still change until what is equal among them is.
+pub fn equalise(fits: &mut [Recognised]) {
+    let (at, items) = condensed(fits);
+    at.iter().zip(constrain::equalise(&items)).for_each(|(&i, new)| fits[i].surface = new);
+}
+
+/// The regions that can take part, and their surfaces.
+fn condensed(fits: &[Recognised]) -> (Vec<usize>, Vec<Condensed>) {
+    let known = |(i, fit): (usize, &Recognised)| {
+        Some((i, Condensed::new(&fit.surface, &fit.support, fit.sigma)?))
+    };
+    fits.iter().enumerate().filter_map(known).unzip()
 }
 
 /// Positions in braces become regions.

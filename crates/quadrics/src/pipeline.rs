@@ -1,11 +1,10 @@
 //! The stations in order, nothing else.
 
 use crate::baseline::baseline;
-use crate::constrain::Demands;
 use crate::context::Context;
 use crate::describe::{describe, fit_all, neighbours};
 use crate::error::{Error, Result};
-use crate::impose::impose;
+use crate::impose::{equalise, impose};
 use crate::math::Similarity;
 use crate::mesh::{Mesh, Working, repair};
 use crate::options::{Method, Options, Preset};
@@ -100,9 +99,9 @@ fn regroup(context: &mut Context, cube: &Working, found: &mut Found) -> Result<(
     scene.evidence = found.evidence;
     let mut fits = context
         .timed("describe", |context| fit_all(context, &scene, &found.labels, &found.surfaces))?;
-    let beside = neighbours(&found.labels, &scene.adjacency, fits.len());
     context.timed("constrain", |_| {
-        impose(&mut fits, &beside, &Demands::default(), &Similarity::identity())
+        equalise(&mut fits);
+        Ok(())
     })?;
     context.timed("assign", |_| {
         let regions = Regions::new(&found.labels);

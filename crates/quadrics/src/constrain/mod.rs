@@ -68,13 +68,19 @@ pub fn constrain(
 ) -> Result<Constrained, String> {
     asked::check(items, demands)?;
     let mut work = Work::new(items, neighbours, demands);
-    work.orient();
-    work.stage(|view, classes| view.align(classes));
-    work.stage(|view, classes| view.center_all(classes));
-    work.stage(|view, classes| view.equalise(classes));
+    work.equalise();
     work.relate();
     work.round();
     Ok(work.done())
+}
+
+/// The surfaces under what is equal and at right angles alone: who touches whom, and which steps
+/// repeat, is not settled while regions still change.
+pub fn equalise(items: &[Condensed]) -> Vec<Surface> {
+    let demands = Demands::default();
+    let mut work = Work::new(items, &[], &demands);
+    work.equalise();
+    work.surfaces()
 }
 
 #[cfg(test)]

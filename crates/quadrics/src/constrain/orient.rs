@@ -19,7 +19,7 @@ const PARALLEL: f64 = 1e-9;
 
 impl Work<'_> {
     /// Parallel classes, then right angles between them.
-    pub fn orient(&mut self) {
+    pub(super) fn orient(&mut self) {
         let rules = self.demands.rules("parallel");
         let (class, directions) = directions::parallel(self.items, &rules, self.demands.gate);
         self.classes.direction = class;

@@ -78,9 +78,17 @@ impl<'a> Work<'a> {
         right.map(|(e, _)| e.clone()).chain(others).collect()
     }
 
+    /// Orientation, placement, equality.
+    pub fn equalise(&mut self) {
+        self.orient();
+        self.stage(|view, classes| view.align(classes));
+        self.stage(|view, classes| view.center_all(classes));
+        self.stage(|view, classes| view.equalise(classes));
+    }
+
     /// One stage of equalities; surfaces that would have to move too far stay as they were, unless
     /// the user holds them.
-    pub fn stage(&mut self, step: fn(&View, &mut Classes)) {
+    fn stage(&mut self, step: fn(&View, &mut Classes)) {
         let Some((system, solution)) = &self.solved else { return };
         let mut classes = self.classes.clone();
         step(&View { system, solution, demands: self.demands }, &mut classes);
@@ -216,12 +224,19 @@ impl<'a> Work<'a> {
         }
     }
 
+    /// The surfaces as they are now.
+    pub fn surfaces(&self) -> Vec<Surface> {
+        match &self.solved {
+            Some(solved) => self.part(solved).surfaces,
+            None => self.items.iter().map(|item| item.surface.clone()).collect(),
+        }
+    }
+
     /// What came out.
     pub fn done(mut self) -> Constrained {
-        let free: Vec<Surface> = self.items.iter().map(|item| item.surface.clone()).collect();
         let Some(solved) = self.solved.take() else {
             let (links, dimensions, scatters) = (Vec::new(), Vec::new(), Vec::new());
-            return Constrained { surfaces: free, links, dimensions, scatters };
+            return Constrained { surfaces: self.surfaces(), links, dimensions, scatters };
         };
         let part = self.part(&solved);
         let mut links = alike::links(&part, &self.angles);
