@@ -124,8 +124,7 @@ fn has(surface: &Surface, fixed: &Fixed) -> Result<(), String> {
         ("axis", Surface::Cylinder(_) | Surface::Cone(_) | Surface::Torus(_))
         | ("normal", Surface::Plane(_))
         | ("center", Surface::Sphere(_) | Surface::Torus(_))
-        | ("point", Surface::Cylinder(_))
-        | ("apex", Surface::Cone(_)) => true,
+        | ("point", Surface::Cylinder(_)) => true,
         _ => fixed.size().is_some_and(|size| size.of(surface).is_some()),
     };
     let (region, name) = (fixed.region, surface.class_name(1.0));

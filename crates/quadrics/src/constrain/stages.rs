@@ -73,7 +73,8 @@ impl<'a> Work<'a> {
 
     /// What holds and is no class of equal things.
     fn equations(&self) -> Vec<Equation> {
-        let right = self.angles.iter().filter(|(_, v)| matches!(v, Verdict::Accepted(_)));
+        // What is implied to first order is made exact too.
+        let right = self.angles.iter().filter(|(_, v)| !matches!(v, Verdict::Refused(_)));
         let others = self.related.iter().flat_map(|(_, outcome)| outcome.equations.clone());
         right.map(|(e, _)| e.clone()).chain(others).collect()
     }
