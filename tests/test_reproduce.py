@@ -69,7 +69,8 @@ def test_a_plot_is_svg_and_keeps_its_points_inside() -> None:
 
 def test_the_length_of_boundaries_is_that_of_the_edges_between_labels() -> None:
     # Two triangles of a unit square: they share its diagonal.
-    square = quadrics.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    square = quadrics.as_mesh((corners, [[0, 1, 2], [0, 2, 3]]))
     labels = np.array([0, 1], np.int32)
     assert boundary_length(square, labels) == pytest.approx(np.sqrt(2))
     assert boundary_length(square, np.zeros(2, np.int32)) == 0
