@@ -15,6 +15,7 @@ from quadrics.cli.main import main
 from quadrics.cli.reproduce import NAMES
 from quadrics.reproduce import experiment
 from quadrics.reproduce.data import Data, Model
+from quadrics.reproduce.figure4 import boundary_length
 from quadrics.reproduce.figure11 import METHODS
 from quadrics.reproduce.page import page
 from quadrics.reproduce.plot import Curve, plot
@@ -64,6 +65,15 @@ def test_a_plot_is_svg_and_keeps_its_points_inside() -> None:
         for line in svg.iter("polyline"):
             points = [tuple(map(float, p.split(","))) for p in line.attrib["points"].split()]
             assert all(0 <= x <= 800 and 0 <= y <= 360 for x, y in points)
+
+
+def test_the_length_of_boundaries_is_that_of_the_edges_between_labels() -> None:
+    # Two triangles of a unit square: they share its diagonal.
+    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    square = quadrics.as_mesh((corners, [[0, 1, 2], [0, 2, 3]]))
+    labels = np.array([0, 1], np.int32)
+    assert boundary_length(square, labels) == pytest.approx(np.sqrt(2))
+    assert boundary_length(square, np.zeros(2, np.int32)) == 0
 
 
 def test_words_of_a_page_are_escaped() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import colorsys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -37,12 +38,16 @@ def plain_view(mesh: Mesh) -> NDArray[np.uint8]:
     return _draw(mesh, grey, mesh.normals(), np.zeros(len(mesh.faces), np.int32))
 
 
-def region_view(result: Result) -> NDArray[np.uint8]:
-    """Draw the regions in colours, with the normals of their surfaces."""
+def region_view(result: Result, shown: NDArray[np.bool_] | None = None) -> NDArray[np.uint8]:
+    """Draw the regions in colours, with the normals of their surfaces; only `shown` triangles."""
     if len(result.regions) == 0:
         return plain_view(result.mesh)
-    labels = result.triangle_labels
-    return _draw(result.mesh, region_colours(result)[labels], _surface_normals(result), labels)
+    labels, normals = result.triangle_labels, _surface_normals(result)
+    colours, mesh = region_colours(result)[labels], result.mesh
+    if shown is None:
+        return _draw(mesh, colours, normals, labels)
+    part = replace(mesh, faces=mesh.faces[shown])
+    return _draw(part, colours[shown], normals[shown], labels[shown])
 
 
 def region_colours(result: Result) -> NDArray[np.uint8]:

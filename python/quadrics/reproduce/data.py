@@ -24,6 +24,10 @@ STAND_INS: dict[str, tuple[str, int]] = {
     "carter": ("plate", 25_000),
     "blade": ("shaft", 25_000),
     "part": ("demo", 20_000),
+    "part4": ("demo", 143_000),
+    "master_cylinder": ("shaft", 100_000),
+    "grayloc": ("plate:33", 69_500),
+    "shell": ("open", 20_000),
 }
 #: Parts with known surfaces: names of folders, and of generated parts.
 WITH_TRUTH = ("ball_joint", "bracket", "pipe_flange", "stepped_shaft", "valve_body")
@@ -70,8 +74,12 @@ class Data:
             if path.is_file():
                 return Model(name, read(path), f"the file {path.name}")
         part, faces = STAND_INS[name]
-        note = f"stand-in: the generated part '{part}' with about {faces} faces"
-        return Model(name, synth.part(part, faces).mesh, note)
+        made = synth.part(part, faces)
+        note = (
+            f"stand-in: the generated part '{part}', {made.mesh.face_count} faces, "
+            f"{len(made.surfaces)} surfaces"
+        )
+        return Model(name, made.mesh, note)
 
     def has(self, name: str) -> bool:
         """Whether there is a file of that name."""

@@ -8,11 +8,11 @@ from quadrics.reproduce.paper import regions_of
 from quadrics.reproduce.section import Note, Pictures, Section
 from quadrics.run import segment
 
-MODELS = ("blade", "rolling_stage", "oil_pump", "fandisk")
+MODELS = ("blade", "rolling_stage", "oil_pump", "fandisk", "part4")
 
 
 def make(data: Data) -> Section:
-    """Run the stages on every model; part4 of the paper is not public."""
+    """Run the stages on every model."""
     section = Section("Figure 2: input, start, result")
     for name in MODELS:
         model = data.model(name)

@@ -7,13 +7,13 @@
 //! a cut is left out, since the paper's comparison is of the loops. The energies are those of all
 //! rounds, teleportations included.
 
-use super::{start, teleport, wanted};
+use super::teleport::variational;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Working;
-use crate::options::{Options, Seeds};
+use crate::options::Options;
 use crate::partition::Labels;
-use crate::segment::{Metric, Outcome, Task};
+use crate::segment::{Metric, Outcome};
 
 /// Segments a mesh in the unit cube into `options.regions` quadrics.
 ///
@@ -25,12 +25,5 @@ pub fn qsf(
     options: &Options,
     labels: Option<Labels>,
 ) -> Result<Outcome> {
-    let regions = wanted(options)?;
-    let options = Options { seeds: Seeds::Triangle, merge_angle_deg: 0.0, ..options.clone() };
-    let task = Task { working, options: &options, metric: Metric::Surfaces };
-    context.timed("segment", |context| {
-        let first = start::first(context, &task, labels, regions)?;
-        let (best, energy) = teleport::converge(context, &task, first)?;
-        Ok(best.outcome(energy))
-    })
+    variational(context, working, options, labels, Metric::Surfaces)
 }

@@ -5,13 +5,13 @@
 //! region at a time); teleportation goes on while it lowers the energy. The energy that is
 //! reported is eq. 1 of its planes, before the first round and at the end.
 
-use super::{common_energy, start, teleport, wanted};
+use super::teleport::variational;
 use crate::context::Context;
 use crate::error::Result;
 use crate::mesh::Working;
-use crate::options::{Options, Seeds};
+use crate::options::Options;
 use crate::partition::Labels;
-use crate::segment::{Metric, Outcome, Task};
+use crate::segment::{Metric, Outcome};
 
 /// Segments a mesh in the unit cube into `options.regions` planar regions.
 ///
@@ -23,14 +23,5 @@ pub fn vsa(
     options: &Options,
     labels: Option<Labels>,
 ) -> Result<Outcome> {
-    let regions = wanted(options)?;
-    let options = Options { seeds: Seeds::Triangle, merge_angle_deg: 0.0, ..options.clone() };
-    let task = Task { working, options: &options, metric: Metric::Normals };
-    context.timed("segment", |context| {
-        let first = start::first(context, &task, labels, regions)?;
-        let before = common_energy(&task, &first);
-        let (best, _) = teleport::converge(context, &task, first)?;
-        let after = common_energy(&task, &best);
-        Ok(best.outcome(vec![before, after]))
-    })
+    variational(context, working, options, labels, Metric::Normals)
 }

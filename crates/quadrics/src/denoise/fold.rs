@@ -10,11 +10,10 @@ const ROUNDS: usize = 6;
 /// The positions with the moves of folded faces taken back, by halves, at last altogether.
 pub fn unfold(task: &Task, moved: Vec<Point>) -> Vec<Point> {
     let before = &task.working.mesh.positions;
-    let sides = sides(task);
     let mut after = moved;
     for round in 0..=ROUNDS {
         let folded: Vec<usize> =
-            (0..task.labels.len()).filter(|&face| is_folded(task, &sides, &after, face)).collect();
+            (0..task.labels.len()).filter(|&face| is_folded(task, &after, face)).collect();
         if folded.is_empty() {
             break;
         }
@@ -31,33 +30,20 @@ pub fn unfold(task: &Task, moved: Vec<Point>) -> Vec<Point> {
     after
 }
 
-/// For every region 1 or -1: whether its faces look the way its surface does.
-fn sides(task: &Task) -> Vec<f64> {
-    let mut sums = vec![0.0; task.surfaces.len()];
-    let geometry = &task.working.geometry;
-    for (face, &label) in task.labels.iter().enumerate() {
-        let surface = task.surfaces.get(label as usize);
-        if let Some(normal) = surface.and_then(|s| s.normal(geometry.barycentres[face])) {
-            sums[label as usize] += normal.dot(&geometry.normals[face]) * geometry.areas[face];
-        }
-    }
-    sums.iter().map(|sum| f64::signum(*sum)).collect()
-}
-
 /// Whether a face looks away from its surface now, and did not before.
-fn is_folded(task: &Task, sides: &[f64], positions: &[Point], face: usize) -> bool {
+fn is_folded(task: &Task, positions: &[Point], face: usize) -> bool {
     let corners = task.working.mesh.faces[face];
     let [a, b, c] = corners.map(|vertex| positions[vertex as usize]);
     let normal = (b - a).cross(&(c - a));
     let old = task.working.geometry.normals[face];
-    let expected = expected(task, sides, face).unwrap_or(old);
+    let expected = expected(task, face).unwrap_or(old);
     normal.dot(&expected) < 0.0 && old.dot(&expected) >= 0.0
 }
 
 /// The normal of the face's surface on the side of the region; `None` where it has none.
-fn expected(task: &Task, sides: &[f64], face: usize) -> Option<Vector> {
+fn expected(task: &Task, face: usize) -> Option<Vector> {
     let region = task.labels[face] as usize;
     let surface = task.surfaces.get(region).filter(|s| !matches!(s, Surface::FreeForm))?;
     let normal = surface.normal(task.working.geometry.barycentres[face])?;
-    Some(normal.into_inner() * sides[region])
+    Some(normal.into_inner() * task.sides[region])
 }

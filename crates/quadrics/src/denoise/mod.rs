@@ -1,16 +1,22 @@
 //! Noise off a mesh whose surfaces are known (paper, section 5.5).
 //!
 //! A vertex inside a region goes to its surface, one between two to the curve where they meet, one
-//! where three meet to their point. Nothing moves further than the noise explains: where all
-//! neighbours lie off a surface on the same side, it is the surface that errs, and a vertex goes to
-//! where its neighbours are on the mean.
+//! where three meet to their point. Nothing moves further than the noise explains, nor aside of the
+//! direction that it acts in (`place`), nor to a curve that most vertices along it are too far from
+//! (`crease`): those go to one of the surfaces, or stay. Where all neighbours lie off a surface on
+//! the same side, it is the surface that errs, and a vertex goes to where its neighbours are on the
+//! mean (`offset`, `shared`).
 
+mod crease;
+mod direction;
 mod fold;
 mod free;
 mod offset;
 mod place;
 mod shared;
 
+use offset::Offsets;
+use place::{Goal, Noisy};
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
@@ -27,6 +33,8 @@ struct Task<'a> {
     working: &'a Working,
     labels: &'a [u32],
     surfaces: &'a [Surface],
+    /// Of every region, 1 or -1: whether its faces look the way its surface does.
+    sides: Vec<f64>,
     /// Standard deviation of the noise across the surface.
     sigma: f64,
 }
@@ -76,27 +84,43 @@ pub fn denoise(
     }
     let working = Working::new(mesh.clone());
     let sigma = sigma.max(ROUNDING * mesh.size());
-    let task = Task { working: &working, labels, surfaces, sigma };
+    let sides = direction::sides(&working, labels, surfaces);
+    let task = Task { working: &working, labels, surfaces, sides, sigma };
     let regions: Vec<Vec<u32>> =
         (0..mesh.positions.len() as u32).into_par_iter().map(|v| task.regions(v)).collect();
-    let offsets = offset::Offsets::new(&task, &regions);
-    let reach = offsets.reach(sigma);
-    let moved: Vec<Point> = (0..mesh.positions.len())
-        .into_par_iter()
-        .map_init(offset::Search::default, |search, vertex| {
-            if regions[vertex].is_empty() {
-                return free::place(&task, vertex as u32, reach);
-            }
-            let goal = |&region: &u32| place::Goal {
-                surface: &surfaces[region as usize],
-                offset: offsets.at(&task, vertex as u32, region, search),
-            };
-            let goals: Vec<_> = regions[vertex].iter().map(goal).collect();
-            place::place(mesh.positions[vertex], &goals, reach)
-        })
-        .collect();
+    let offsets = Offsets::new(&task, &regions);
+    let reach = offsets.reach(&regions, surfaces.len(), sigma);
+    let moved = move_all(&task, &regions, &offsets, reach);
     let moved = shared::take_back(&task, moved, &regions, reach);
     Ok(fold::unfold(&task, moved))
+}
+
+/// Every vertex to where its surfaces meet, as far as the noise explains it.
+fn move_all(task: &Task, regions: &[Vec<u32>], offsets: &Offsets, reach: f64) -> Vec<Point> {
+    let vertices = (0..regions.len()).into_par_iter();
+    let goals: Vec<Vec<Goal>> = vertices
+        .clone()
+        .map_init(offset::Search::default, |search, vertex| {
+            let mut goal = |&region: &u32| Goal {
+                surface: &task.surfaces[region as usize],
+                offset: offsets.at(task, vertex as u32, region, search),
+            };
+            regions[vertex].iter().map(&mut goal).collect()
+        })
+        .collect();
+    let noisy: Vec<Noisy> = vertices.clone().map(|v| task.noisy(v as u32, reach)).collect();
+    let joint = |vertex: usize| match goals[vertex].len() {
+        0 | 1 => None,
+        _ => noisy[vertex].joint(&goals[vertex]),
+    };
+    let joints: Vec<Option<Point>> = vertices.clone().map(joint).collect();
+    let creases = crease::Creases { task, regions, joints: &joints };
+    vertices
+        .map(|vertex| match regions[vertex].is_empty() {
+            true => free::place(task, vertex as u32, reach),
+            false => creases.settle(vertex, &noisy[vertex], &goals[vertex]),
+        })
+        .collect()
 }
 
 #[cfg(test)]

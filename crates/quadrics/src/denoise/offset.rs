@@ -8,9 +8,11 @@ const NEIGHBOURS: usize = 40;
 /// A vertex moves by at most so many standard deviations of the noise: of Gaussian noise one vertex
 /// in sixteen thousand lies further off ...
 pub const REACH: f64 = 4.0;
-/// ... and no further than nearly all vertices lie off, and a little: eq. 5 ends at 1.8 deviations.
-const NEARLY_ALL: f64 = 0.99;
-const LITTLE: f64 = 1.1;
+/// ... and no further than nearly all vertices of a region lie off: eq. 5 ends at 1.8 deviations. The
+/// few beyond keep what is left, which costs less than moving many too far.
+const NEARLY_ALL: f64 = 0.95;
+/// Vertices of which that can be told.
+const FEWEST: usize = 50;
 /// A mean of so many standard errors is no chance.
 const SIGNIFICANT: f64 = 3.0;
 
@@ -38,15 +40,28 @@ impl Offsets {
         Self { distance: regions.iter().enumerate().map(distance).collect() }
     }
 
-    /// How far the noise goes.
-    pub fn reach(&self, sigma: f64) -> f64 {
-        let inside = self.distance.iter().filter(|distance| !distance.is_nan());
-        let mut far: Vec<f64> = inside.map(|distance| distance.abs()).collect();
-        if far.is_empty() {
-            return REACH * sigma;
+    /// How far the noise goes: the median of what the regions say, since a wrong surface is further off.
+    pub fn reach(&self, regions: &[Vec<u32>], count: usize, sigma: f64) -> f64 {
+        let mut far = vec![Vec::new(); count];
+        for (regions, distance) in regions.iter().zip(&self.distance) {
+            if !distance.is_nan() {
+                far[regions[0] as usize].push(distance.abs());
+            }
         }
-        let at = (NEARLY_ALL * (far.len() - 1) as f64) as usize;
-        (LITTLE * *far.select_nth_unstable_by(at, f64::total_cmp).1).min(REACH * sigma)
+        far.retain(|far| far.len() >= FEWEST);
+        let nearly_all = |mut far: Vec<f64>| {
+            let at = (NEARLY_ALL * (far.len() - 1) as f64) as usize;
+            (*far.select_nth_unstable_by(at, f64::total_cmp).1, far.len())
+        };
+        let mut reaches: Vec<(f64, usize)> = far.into_iter().map(nearly_all).collect();
+        reaches.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
+        let half = reaches.iter().map(|(_, vertices)| vertices).sum::<usize>() / 2;
+        let mut below = 0;
+        let median = reaches.iter().find(|(_, vertices)| {
+            below += vertices;
+            below > half
+        });
+        median.map_or(f64::INFINITY, |(reach, _)| *reach).min(REACH * sigma)
     }
 
     /// How far off the surface of `region` the vertices near `vertex` lie, as far as that is no

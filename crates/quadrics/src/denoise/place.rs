@@ -21,32 +21,76 @@ const GRAZING: f64 = 0.2;
 /// Converged, as a fraction of the reach.
 const SETTLED: f64 = 1e-6;
 
-/// Where a vertex goes, at most `reach` away.
-///
-/// Where the surfaces do not meet within reach, the one furthest off is left out, until one is left;
-/// of that the vertex comes as near as the reach allows.
-pub fn place(vertex: Point, goals: &[Goal], reach: f64) -> Point {
-    let mut goals = goals.to_vec();
-    while goals.len() > 1 {
-        if let Some(point) = meet(vertex, &goals, reach)
-            && (point - vertex).norm() <= reach
-        {
-            return point;
-        }
-        let off = |goal: &Goal| {
-            goal.surface.distance(vertex).map_or(f64::INFINITY, |d| (d - goal.offset).abs())
-        };
-        let far = (0..goals.len()).max_by(|&i, &j| off(&goals[i]).total_cmp(&off(&goals[j])));
-        goals.remove(far.expect("there are two"));
+/// How much further than the reach a joint may be, since the noise of few vertices reaches further.
+const SLACK: f64 = 1.25;
+/// Standard deviations that a way may lead aside of the direction of the noise: surfaces and labels err.
+const ASIDE: f64 = 0.7;
+/// Standard deviations that a vertex may stick out more than before: its neighbours have noise too.
+const MORE: f64 = 0.7;
+
+/// A vertex, and what the noise explains there.
+#[derive(Clone, Copy)]
+pub struct Noisy {
+    pub position: Point,
+    /// The direction that noise acts in.
+    pub outward: Vector,
+    /// How far above the middle of its neighbours it lies.
+    pub height: f64,
+    /// Standard deviation of the noise.
+    pub sigma: f64,
+    /// How far it may move.
+    pub reach: f64,
+}
+
+impl Noisy {
+    /// Where all surfaces meet, or as near as the reach allows, if the noise explains the way there.
+    ///
+    /// A vertex of a chamfer that nobody saw is off one surface for the noise, off the other for
+    /// the chamfer: their curve is aside.
+    pub fn joint(&self, goals: &[Goal]) -> Option<Point> {
+        let way = meet(self.position, goals, self.reach)? - self.position;
+        let aside = way - self.outward * self.outward.dot(&way);
+        let explained = way.norm() <= SLACK * self.reach && aside.norm() <= ASIDE * self.sigma;
+        // A corner has no neighbours along it that could bear witness.
+        let trusted = goals.len() < 3 || !self.sticks_out(way, MORE);
+        (explained && trusted).then(|| self.position + way.cap_magnitude(self.reach))
     }
-    let Some(goal) = goals.first() else { return vertex };
-    match (goal.surface.distance(vertex), goal.surface.normal(vertex)) {
-        (Some(distance), Some(normal)) => {
-            vertex - normal.into_inner() * (distance - goal.offset).clamp(-reach, reach)
-        }
-        // On an axis or in a centre no way is shorter than the others.
-        _ => vertex,
+
+    /// As near as the reach allows to the one surface that brings it nearest to its neighbours; it
+    /// stays where all of them carry it away from them.
+    pub fn alone(&self, goals: &[Goal]) -> Point {
+        let ways = goals.iter().filter_map(|goal| self.way(goal));
+        let best = ways.min_by(|one, other| self.left(*one).total_cmp(&self.left(*other)));
+        let more = if goals.len() > 1 { 0.0 } else { MORE };
+        let way = best.filter(|way| !self.sticks_out(*way, more));
+        self.position + way.unwrap_or_default()
     }
+
+    /// Whether a way carries the vertex away from its neighbours, by so many standard deviations.
+    fn sticks_out(&self, way: Vector, deviations: f64) -> bool {
+        self.left(way) > self.height.abs() + deviations * self.sigma
+    }
+
+    /// How far off the middle of its neighbours a way leaves it.
+    fn left(&self, way: Vector) -> f64 {
+        (self.height + way.dot(&self.outward)).abs()
+    }
+
+    /// `None` on an axis or in a centre, where no way is shorter than the others.
+    fn way(&self, goal: &Goal) -> Option<Vector> {
+        let off = goal.surface.distance(self.position)? - goal.offset;
+        let normal = goal.surface.normal(self.position)?.into_inner();
+        Some(-normal * off.clamp(-self.reach, self.reach))
+    }
+}
+
+/// The place of the goal that a point is furthest off.
+pub fn furthest(point: Point, goals: &[Goal]) -> usize {
+    let off = |goal: &Goal| {
+        goal.surface.distance(point).map_or(f64::INFINITY, |d| (d - goal.offset).abs())
+    };
+    let by_distance = |&i: &usize, &j: &usize| off(&goals[i]).total_cmp(&off(&goals[j]));
+    (0..goals.len()).max_by(by_distance).unwrap_or(0)
 }
 
 /// The point of all surfaces nearest to the vertex, by Gauss-Newton with steps of least norm.
@@ -92,6 +136,11 @@ mod tests {
         surfaces.iter().map(|surface| Goal { surface, offset: 0.0 }).collect()
     }
 
+    /// A vertex that sticks out of its neighbours by as much as noise moved it.
+    fn noisy(position: Point, outward: Vector, height: f64, reach: f64) -> Noisy {
+        Noisy { position, outward: outward.normalize(), height, sigma: reach / 2.0, reach }
+    }
+
     #[test]
     fn three_surfaces_meet_in_a_point_and_two_in_the_nearest_of_a_curve() {
         let round = Surface::Cylinder(Cylinder {
@@ -101,11 +150,12 @@ mod tests {
         });
         let top = plane([0.0, 0.0, 1.0], 2.0);
         let side = plane([0.0, 1.0, 0.0], 0.0);
-        let vertex = Point::new(1.05, 0.04, 1.97);
+        let way = Vector::new(0.05, 0.04, 0.05);
+        let vertex = noisy(Point::new(1.0, 0.0, 2.0) + way, way, way.norm(), 1.0);
         let surfaces = [round, top, side];
-        let corner = place(vertex, &goals(&surfaces), 1.0);
+        let corner = vertex.joint(&goals(&surfaces)).unwrap();
         assert!((corner - Point::new(1.0, 0.0, 2.0)).norm() < 1e-9, "{corner}");
-        let on_curve = place(vertex, &goals(&surfaces[..2]), 1.0);
+        let on_curve = vertex.joint(&goals(&surfaces[..2])).unwrap();
         let outward = Vector::new(1.05, 0.04, 0.0).normalize();
         assert!((on_curve - Point::from(outward + Vector::z() * 2.0)).norm() < 1e-6, "{on_curve}");
     }
@@ -118,20 +168,33 @@ mod tests {
             radius: 1.0,
         });
         let flat = plane([0.0, 0.0, 1.0], 0.0);
-        let vertex = Point::new(0.0, 0.0, 0.02);
-        let point = place(vertex, &goals(&[fillet, flat]), 0.1);
+        let vertex = noisy(Point::new(0.0, 0.0, 0.02), Vector::z(), 0.02, 0.1);
+        let point = vertex.joint(&goals(&[fillet, flat])).unwrap();
         assert!((point - Point::new(0.0, 0.0, -0.005)).norm() < 1e-9, "{point}");
     }
 
     #[test]
-    fn what_does_not_meet_within_reach_is_left_out() {
+    fn a_curve_out_of_reach_or_aside_is_not_explained() {
         let far = Surface::Sphere(Sphere { center: Point::new(0.0, 0.0, 9.0), radius: 1.0 });
         let flat = plane([0.0, 0.0, 1.0], 0.0);
-        let surfaces = [far, flat];
-        let point = place(Point::new(0.0, 0.0, 0.02), &goals(&surfaces), 0.1);
-        assert!((point - Point::origin()).norm() < 1e-12);
-        let short = place(Point::new(0.0, 0.0, 0.3), &goals(&surfaces[1..]), 0.1);
+        let upright = plane([1.0, 0.0, 0.0], 0.06);
+        let vertex = noisy(Point::new(0.0, 0.0, 0.02), Vector::z(), 0.02, 0.1);
+        assert_eq!(vertex.joint(&goals(&[far, flat.clone()])), None);
+        assert_eq!(vertex.joint(&goals(&[flat, upright])), None);
+    }
+
+    #[test]
+    fn alone_a_vertex_goes_to_the_surface_that_its_neighbours_are_at() {
+        let surfaces = [plane([0.0, 0.0, 1.0], 0.0), plane([0.0, 0.0, 1.0], 0.21)];
+        let at = |z, height| noisy(Point::new(0.0, 0.0, z), Vector::z(), height, 0.1);
+        assert_eq!(at(0.11, 0.11).alone(&goals(&surfaces)), Point::new(0.0, 0.0, 0.11 - 0.1));
+        let short = at(0.3, 0.3).alone(&goals(&surfaces[..1]));
         assert!((short - Point::new(0.0, 0.0, 0.2)).norm() < 1e-12);
-        assert_eq!(place(Point::origin(), &[], 1.0), Point::origin());
+        // Both surfaces are above, and it sticks out already: it stays.
+        assert_eq!(
+            at(0.15, 0.1).alone(&goals(&[surfaces[1].clone(), surfaces[1].clone()])).z,
+            0.15
+        );
+        assert_eq!(at(0.15, 0.1).alone(&[]).z, 0.15);
     }
 }

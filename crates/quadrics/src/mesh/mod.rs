@@ -34,8 +34,10 @@ pub struct Mesh {
 
 impl Mesh {
     /// The three corners of a face.
+    #[inline]
     pub fn corners(&self, face: usize) -> [Point; 3] {
-        self.faces[face].map(|vertex| self.positions[vertex as usize])
+        let [a, b, c] = self.faces[face];
+        [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
     }
 
     /// Least and greatest coordinates of the vertices that faces use; `None` without faces.

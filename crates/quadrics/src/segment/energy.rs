@@ -1,7 +1,7 @@
 //! The distance of a triangle to a proxy (paper, eq. 2 and 3); eq. 1 is its sum.
 
 use crate::math::{Point, Vector};
-use crate::surface::quadrature;
+use crate::surface::quadrature::{self, POINTS};
 use crate::surface::{Plane, Quadric, Surface};
 
 /// What a region is approximated by; its gradient points to the side of the region's normals.
@@ -47,18 +47,26 @@ fn plane_error(plane: &Plane, corners: [Point; 3], normal: Vector, beta: f64) ->
 }
 
 /// By the rule of degree four: `f²` has that degree, and the gradient changes little over a face.
+///
+/// All points at once, so that roots and quotients are taken side by side.
 fn quadric_error(quadric: &Quadric, corners: [Point; 3], normal: Vector, beta: f64) -> f64 {
-    quadrature::mean(corners, |point| {
-        let (value, gradient) = value_and_gradient(&quadric.coefficients, point);
-        let steep = gradient.norm_squared();
-        let (distance, deviation) = if steep > NO_GRADIENT {
+    let points = quadrature::points(corners);
+    let (mut values, mut steep, mut along) = ([0.0; POINTS], [0.0; POINTS], [0.0; POINTS]);
+    for i in 0..POINTS {
+        let (value, gradient) = value_and_gradient(&quadric.coefficients, points[i]);
+        (values[i], steep[i], along[i]) = (value, gradient.norm_squared(), gradient.dot(&normal));
+    }
+    let mut sum = 0.0;
+    for i in 0..POINTS {
+        let (distance, deviation) = if steep[i] > NO_GRADIENT {
             // |g/|g| - n|² = 2 - 2 g·n/|g| for a unit n.
-            (value * value / steep, 2.0 - 2.0 * gradient.dot(&normal) / steep.sqrt())
+            (values[i] * values[i] / steep[i], 2.0 - 2.0 * along[i] / steep[i].sqrt())
         } else {
             LARGEST
         };
-        distance + beta * deviation.max(0.0)
-    })
+        sum += quadrature::WEIGHTS[i] * (distance + beta * deviation.max(0.0));
+    }
+    sum
 }
 
 #[inline]

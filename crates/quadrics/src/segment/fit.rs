@@ -116,15 +116,20 @@ impl Patch {
 /// Some of a region's faces.
 pub type FaceIter<'f> = Box<dyn Iterator<Item = &'f u32> + 'f>;
 
-/// About [`SAMPLE`] of some faces, evenly.
-pub fn sample(faces: &[u32]) -> FaceIter<'_> {
-    Box::new(faces.iter().step_by((faces.len() / SAMPLE).max(1)))
+/// About `count` of some faces, evenly.
+pub fn sample(faces: &[u32], count: usize) -> FaceIter<'_> {
+    Box::new(faces.iter().step_by(step(faces.len(), count)))
+}
+
+/// From one face of a sample of about `count` to the next.
+pub fn step(faces: usize, count: usize) -> usize {
+    (faces / count).max(1)
 }
 
 /// Fits a proxy to some faces.
 pub fn fit(task: &Task, faces: Vec<u32>) -> Fitted {
     let patch = Patch::new(task, &faces);
-    let proxy = patch.proxy(task, || sample(&faces));
+    let proxy = patch.proxy(task, || sample(&faces, SAMPLE));
     Fitted::new(task, faces, patch, proxy)
 }
 

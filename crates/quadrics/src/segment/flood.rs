@@ -17,9 +17,13 @@ pub fn flood<'p, 's>(
     labels: &mut [u32],
 ) {
     let mut queue = Queue::default();
-    let push = |queue: &mut Queue, face: u32, region: u32, seed: bool| {
-        let error = task.error(proxy(region), face);
-        queue.push(error, Pair { face, region, seed });
+    // A region reaches a face from up to three sides: the later pairs would be the same.
+    let mut reached_by = vec![UNLABELLED; labels.len()];
+    let mut push = |queue: &mut Queue, face: u32, region: u32, seed: bool| {
+        if std::mem::replace(&mut reached_by[face as usize], region) != region {
+            let error = task.error(proxy(region), face);
+            queue.push(error, Pair { face, region, seed });
+        }
     };
     for (region, faces) in seeds {
         for &face in faces {

@@ -23,12 +23,17 @@ pub fn insert(task: &Task, labels: &mut [u32], regions: &mut Vec<Fitted>, limit:
         .rev()
         .max_by(|&i, &j| regions[i].mean_error().total_cmp(&regions[j].mean_error()));
     let Some(worst) = worst else { return false };
-    let numbers = [worst as u32, regions.len() as u32];
-    let local = Local { task, faces: &regions[worst].faces, numbers };
-    let [old, new] = local.split(labels, &regions[worst]);
-    regions[worst] = old;
-    regions.push(new);
+    split(task, labels, regions, worst);
     true
+}
+
+/// Splits a region of several faces; the new one is the last.
+pub fn split(task: &Task, labels: &mut [u32], regions: &mut Vec<Fitted>, region: usize) {
+    let numbers = [region as u32, regions.len() as u32];
+    let local = Local { task, faces: &regions[region].faces, numbers };
+    let [old, new] = local.split(labels, &regions[region]);
+    regions[region] = old;
+    regions.push(new);
 }
 
 /// Two regions that share out the faces of one between them.

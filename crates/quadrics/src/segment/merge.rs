@@ -6,9 +6,12 @@ use rayon::prelude::*;
 
 use super::Task;
 use super::energy::Proxy;
-use super::fit::{Fitted, Patch, sample};
+use super::fit::{Fitted, Patch, sample, step};
 use crate::error::Result;
 use crate::math::Unit;
+
+/// Faces of a region that a merge is judged by: most of the pairs are far from the cheapest.
+const SAMPLE: usize = 50;
 
 /// Two adjacent regions, the lesser first.
 type Couple = (u32, u32);
@@ -76,20 +79,25 @@ fn unions(task: &Task, alive: &[Option<Fitted>], of: &[Couple]) -> BTreeMap<Coup
 
 fn union(task: &Task, one: &Fitted, other: &Fitted) -> Union {
     let patch = one.patch.joined(&other.patch);
-    let proxy = patch.proxy(task, || Box::new(sample(&one.faces).chain(sample(&other.faces))));
-    let error = task.total_error(&proxy, &one.faces) + task.total_error(&proxy, &other.faces);
+    let proxy = patch
+        .proxy(task, || Box::new(sample(&one.faces, SAMPLE).chain(sample(&other.faces, SAMPLE))));
+    let increase =
+        || [one, other].map(|region| increase(task, &proxy, region)).iter().sum::<f64>().abs();
     let order = match (&one.proxy, &other.proxy) {
         (Proxy::Plane(a), Proxy::Plane(b)) => {
             let angle = between(&a.normal, &b.normal).to_degrees();
-            if angle <= task.options.merge_angle_deg {
-                (true, angle)
-            } else {
-                (false, (error - (one.error + other.error)).abs())
-            }
+            if angle <= task.options.merge_angle_deg { (true, angle) } else { (false, increase()) }
         }
-        _ => (false, (error - (one.error + other.error)).abs()),
+        _ => (false, increase()),
     };
     Union { order, patch, proxy }
+}
+
+/// What a region's error grows by under another proxy, from a sample of its faces.
+fn increase(task: &Task, proxy: &Proxy, region: &Fitted) -> f64 {
+    let step = step(region.faces.len(), SAMPLE);
+    let faces = region.faces.iter().zip(&region.errors).step_by(step);
+    faces.map(|(&face, error)| task.error(proxy, face) - error).sum::<f64>() * step as f64
 }
 
 /// Well conditioned for small angles, where the arc cosine is not.

@@ -2,9 +2,11 @@
 //!
 //! It starts from labels, wherever they come from. One round grows the regions anew from their
 //! best fitted parts (`seeds`, `flood`) and fits a surface to each (`fit`); before the first
-//! one `merge` and `insert` bring the number of regions to the one that is wanted.
+//! one `merge` and `insert` bring the number of regions to the one that is wanted, and after a few
+//! `exchange` moves regions to where they lower the error more.
 
 mod energy;
+mod exchange;
 pub(crate) mod fit;
 pub(crate) mod flood;
 pub(crate) mod insert;
@@ -27,6 +29,8 @@ use crate::partition::{Labels, Regions, UNLABELLED, components, hand_out};
 
 /// Rounds without a new least energy after which the loop only wanders around its best partition.
 const PATIENCE: usize = 10;
+/// Rounds before regions are exchanged: of their errors most come from the start until then.
+const SETTLING: usize = 3;
 
 /// What the loop ends with.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,7 +124,16 @@ pub fn paper(
     let task = Task { working, options, metric: Metric::Surfaces };
     let start = State::new(&task, start)?;
     let state = adjust(context, &task, start)?;
-    let (best, energy) = lloyd(context, &task, state)?;
+    // A given number is reached by merging, which leaves regions where the start has put them.
+    if options.regions.is_none() || options.max_iterations <= SETTLING {
+        let (best, energy) = lloyd(context, &task, state)?;
+        return Ok(best.outcome(energy));
+    }
+    let short = Options { max_iterations: SETTLING, ..options.clone() };
+    let (settled, mut energy) = lloyd(context, &Task { options: &short, ..task }, state)?;
+    let exchanged = exchange::exchange(context, &task, settled)?;
+    let (best, more) = lloyd(context, &task, exchanged)?;
+    energy.extend(more);
     Ok(best.outcome(energy))
 }
 

@@ -149,7 +149,8 @@ fn any_number_of_threads_gives_the_same_labels() {
 
 #[test]
 fn the_order_of_the_faces_does_not_matter() {
-    let mesh = shaken(can(8), 0.01).mesh;
+    // So few that no region is sampled: of larger ones every n-th face is.
+    let mesh = shaken(can(3), 0.01).mesh;
     let straight = Working::new(mesh.clone());
     let reversed: Vec<_> = mesh.faces.iter().rev().copied().collect();
     let reversed = Working::new(Mesh { faces: reversed, ..mesh });
@@ -265,4 +266,23 @@ fn seeds_are_connected_parts_of_their_regions_of_a_tenth() {
             assert!(seed.iter().all(|&f| component[f as usize] == component[seed[0] as usize]));
         }
     }
+}
+
+#[test]
+fn a_region_too_many_goes_where_one_is_missing() {
+    let Sample { mesh, labels } = cube(10);
+    let working = Working::new(mesh);
+    // Two sides that share an edge are one region, and another side is two.
+    let start: Labels = labels
+        .iter()
+        .enumerate()
+        .map(|(face, &label)| match label {
+            2 => 0,
+            5 if working.geometry.barycentres[face].x < 0.5 => 2,
+            other => other,
+        })
+        .collect();
+    let options = Options { regions: Some(6), merge_angle_deg: 0.0, ..Options::default() };
+    let outcome = run(&working, &options, &start);
+    assert!(same_partition(&outcome.labels, &labels), "{:?}", outcome.energy);
 }

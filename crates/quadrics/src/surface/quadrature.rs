@@ -2,9 +2,12 @@
 
 use crate::math::Point;
 
+/// Points of the rule.
+pub const POINTS: usize = 6;
+
 /// Weights (of the area) and barycentric coordinates of a rule exact to degree four (Dunavant
 /// 1985): six points, all inside, all weights positive, so that no sum of squares turns negative.
-const RULE: [(f64, [f64; 3]); 6] = {
+const RULE: [(f64, [f64; 3]); POINTS] = {
     const W: [f64; 2] = [0.223_381_589_678_011_47, 0.109_951_743_655_321_87];
     const A: [f64; 2] = [0.445_948_490_915_964_9, 0.091_576_213_509_770_74];
     const B: [f64; 2] = [1.0 - 2.0 * A[0], 1.0 - 2.0 * A[1]];
@@ -18,6 +21,23 @@ const RULE: [(f64, [f64; 3]); 6] = {
     ]
 };
 
+/// The weights of the points; they add up to one.
+pub const WEIGHTS: [f64; POINTS] = {
+    let mut weights = [0.0; POINTS];
+    let mut i = 0;
+    while i < POINTS {
+        weights[i] = RULE[i].0;
+        i += 1;
+    }
+    weights
+};
+
+/// The points in a triangle.
+#[inline]
+pub fn points([a, b, c]: [Point; 3]) -> [Point; POINTS] {
+    RULE.map(|(_, [u, v, w])| Point::from(a.coords * u + b.coords * v + c.coords * w))
+}
+
 /// The mean of a function over a triangle.
 #[inline]
 pub fn mean(corners: [Point; 3], mut function: impl FnMut(Point) -> f64) -> f64 {
@@ -26,12 +46,10 @@ pub fn mean(corners: [Point; 3], mut function: impl FnMut(Point) -> f64) -> f64 
     sum
 }
 
-/// Calls back with the six points and their weights, which add up to one.
+/// Calls back with the points and their weights.
 #[inline]
-pub fn each([a, b, c]: [Point; 3], mut visit: impl FnMut(f64, Point)) {
-    for (weight, [u, v, w]) in RULE {
-        visit(weight, Point::from(a.coords * u + b.coords * v + c.coords * w));
-    }
+pub fn each(corners: [Point; 3], mut visit: impl FnMut(f64, Point)) {
+    points(corners).into_iter().zip(WEIGHTS).for_each(|(point, weight)| visit(weight, point));
 }
 
 #[cfg(test)]

@@ -1,0 +1,74 @@
+//! Whether two surfaces that meet do so where the mesh has its crease.
+//!
+//! Where a chamfer was overlooked the curve of its neighbours lies outside of the part, and the noise
+//! brings just those vertices within reach of it that stick out already. Along a true crease
+//! nearly all vertices reach theirs.
+
+use super::Task;
+use super::place::{Goal, Noisy, furthest};
+use crate::math::Point;
+
+/// Vertices along a crease that are asked, at most.
+const WITNESSES: usize = 20;
+/// Share of them that reach the curve. Of a curve that is as far off as the noise goes half do.
+const MOST: f64 = 0.6;
+
+/// Where vertices of several regions would go, if the noise explains it.
+pub struct Creases<'a> {
+    pub task: &'a Task<'a>,
+    pub regions: &'a [Vec<u32>],
+    pub joints: &'a [Option<Point>],
+}
+
+impl Creases<'_> {
+    /// Where a vertex goes: to the joint of its surfaces, or without the one furthest off of those
+    /// that are left, if the crease is believed; else to one of the last two.
+    pub fn settle(&self, vertex: usize, noisy: &Noisy, goals: &[Goal]) -> Point {
+        let (mut at, mut goals) = (self.regions[vertex].clone(), goals.to_vec());
+        let mut joint = self.joints[vertex];
+        while goals.len() > 1 {
+            if let Some(point) = joint
+                && self.believed(vertex as u32, &at)
+            {
+                return point;
+            }
+            if goals.len() == 2 {
+                break;
+            }
+            let far = furthest(noisy.position, &goals);
+            at.remove(far);
+            goals.remove(far);
+            joint = noisy.joint(&goals);
+        }
+        noisy.alone(&goals)
+    }
+
+    /// Whether most vertices near one, along the crease of some surfaces, reach where they meet.
+    fn believed(&self, vertex: u32, surfaces: &[u32]) -> bool {
+        let along = self.along(vertex, surfaces);
+        let witnesses = &along[1..];
+        let reached = witnesses.iter().filter(|&&v| self.joints[v as usize].is_some()).count();
+        reached > 0 && reached as f64 >= MOST * witnesses.len() as f64
+    }
+
+    /// Some vertices between these surfaces, connected with one, itself first.
+    fn along(&self, vertex: u32, surfaces: &[u32]) -> Vec<u32> {
+        let between = |v: u32| {
+            let at = &self.regions[v as usize];
+            at.len() > 1 && at.iter().all(|region| surfaces.contains(region))
+        };
+        let mut found = vec![vertex];
+        let mut next = 0;
+        while next < found.len() && found.len() <= WITNESSES {
+            for &face in self.task.working.adjacency.around(found[next]) {
+                for corner in self.task.working.mesh.faces[face as usize] {
+                    if !found.contains(&corner) && between(corner) {
+                        found.push(corner);
+                    }
+                }
+            }
+            next += 1;
+        }
+        found
+    }
+}
