@@ -31,6 +31,9 @@ class Options:
         Seed of every random choice: the same seed gives the same result.
     threads : int
         Threads to use, 0 for all cores; the result does not depend on it.
+    coarse : int
+        A mesh of more than twice as many faces is coarsened to about so many, on which
+        surfaces are sought; its own faces then choose among them. 0 for never.
     max_edge : float
         Longest edge after subdivision (paper, 4.1), as a fraction of the size; inf for none.
     alpha : float
@@ -65,6 +68,7 @@ class Options:
     constraints: bool = True
     seed: int = 0
     threads: int = 0
+    coarse: int = 50_000
     max_edge: float = 0.03
     alpha: float = 0.9
     epsilon: float = 0.02
@@ -108,12 +112,13 @@ CHOICES = {
     "seeds": ("region", "triangle"),
 }
 #: Fields that are whole numbers.
-WHOLE = ("regions", "seed", "threads", "tau", "seed_candidates", "max_iterations")
+WHOLE = ("regions", "seed", "threads", "coarse", "tau", "seed_candidates", "max_iterations")
 #: Least and greatest value of every number.
 _RANGES: dict[str, tuple[float, float]] = {
     "regions": (1, 2**31 - 1),
     "seed": (0, 2**63 - 1),
     "threads": (0, 4096),
+    "coarse": (0, 2**31 - 1),
     "max_edge": (1e-4, inf),
     "alpha": (-1, 1),
     "epsilon": (0, 1),

@@ -60,6 +60,7 @@ by_name!(
     constraints,
     seed,
     threads,
+    coarse,
     max_edge,
     alpha,
     epsilon,

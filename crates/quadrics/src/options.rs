@@ -38,6 +38,9 @@ pub enum Seeds {
     Triangle,
 }
 
+/// A mesh is coarsened where that leaves half of its faces or less: it would not pay otherwise.
+pub const COARSER: usize = 2;
+
 /// All options of a segmentation. Lengths are fractions of the longest side of the part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
@@ -53,6 +56,9 @@ pub struct Options {
     pub seed: u64,
     /// Threads to use; 0 for all cores. The result does not depend on it.
     pub threads: usize,
+    /// `default`: a mesh of more than [`COARSER`] times as many faces is coarsened to about so many,
+    /// on which surfaces are sought; its own faces then choose among them. 0 for never.
+    pub coarse: usize,
     /// `paper`: longest edge after subdivision (4.1). Fraction of the size; infinite for none.
     pub max_edge: f64,
     /// `paper`: least cosine between a face's normal and the shape's (α of 5.1).
@@ -90,6 +96,7 @@ impl Default for Options {
             constraints: true,
             seed: 0,
             threads: 0,
+            coarse: 50_000,
             max_edge: 0.03,
             alpha: 0.9,
             epsilon: 0.02,

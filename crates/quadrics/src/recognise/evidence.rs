@@ -10,7 +10,7 @@ use super::detect::{Candidate, Workspace, propose};
 use super::scene::{ROUNDING, Scene};
 use crate::context::Context;
 use crate::error::Result;
-use crate::partition::UNLABELLED;
+use crate::partition::{Regions, UNLABELLED};
 use crate::surface::Surface;
 use crate::surface::select::Evidence;
 
@@ -81,6 +81,48 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
         coarsen(context, scene)?;
     }
     Ok(())
+}
+
+/// Faces of a region that are asked how they err.
+const HEARD: usize = 2000;
+/// From the median absolute deviation to the standard deviation.
+const MEDIAN: f64 = 1.4826;
+/// Residuals beyond so many sigmas are not of the region.
+const REACH: f64 = 2.5;
+
+/// The noise of a mesh whose surfaces are known from a coarser one: its sigma, where that of the
+/// coarser one is of means of its vertices, and whether its neighbours err together.
+pub fn carried(scene: &mut Scene, surfaces: &[Surface], labels: &[u32], averaged: bool) {
+    let regions = Regions::new(labels);
+    let distance = |surface: &Surface, p| surface.distance(p).map_or(f64::INFINITY, f64::abs);
+    let hear = |(faces, surface): (&[u32], &Surface)| {
+        if faces.len() < FEWEST {
+            return None;
+        }
+        let step = (faces.len() / HEARD).max(1);
+        let mut heard: Vec<u32> = faces.iter().step_by(step).copied().collect();
+        let middle = |face: &u32| scene.mesh.corners(*face as usize)[0];
+        let mut distances: Vec<f64> = heard.iter().map(|f| distance(surface, middle(f))).collect();
+        let half = distances.len() / 2;
+        let median = *distances.select_nth_unstable_by(half, f64::total_cmp).1;
+        let reach = REACH * MEDIAN * median;
+        let near = |face: &u32| {
+            scene.mesh.corners(*face as usize).iter().all(|p| distance(surface, *p) <= reach)
+        };
+        heard.retain(near);
+        let row = scatter(scene, surface, &heard);
+        (heard.len() >= FEWEST).then_some(Row { sigma: MEDIAN * median, ..row })
+    };
+    let typed = |pair: &(&[u32], &Surface)| !matches!(pair.1, Surface::FreeForm);
+    let pairs: Vec<_> = regions.iter().zip(surfaces).filter(typed).collect();
+    let mut rows: Vec<Row> = pairs.into_par_iter().filter_map(hear).collect();
+    let sigma = quantile(&mut rows, |row| row.sigma).max(ROUNDING);
+    if averaged && !rows.is_empty() {
+        scene.evidence.sigma = sigma;
+    }
+    if sigma > 2.0 * ROUNDING && quantile(&mut rows, |row| row.correlation) > CORRELATED {
+        scene.evidence.independent = INDEPENDENT;
+    }
 }
 
 /// How much coarser the next scale is.
