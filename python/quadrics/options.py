@@ -31,9 +31,10 @@ class Options:
         Seed of every random choice: the same seed gives the same result.
     threads : int
         Threads to use, 0 for all cores; the result does not depend on it.
-    coarse : int
-        A mesh of more than twice as many faces is coarsened to about so many, on which
-        surfaces are sought; its own faces then choose among them. 0 for never.
+    coarse : {"auto", "on", "off"}
+        Whether surfaces are sought on a coarser mesh, whose surfaces the faces then choose among:
+        of its own accord from 100,000 faces where the noise is above a third of an edge or the
+        mesh is made of flat facets of several faces, and always from two million.
     max_edge : float
         Longest edge after subdivision (paper, 4.1), as a fraction of the size; inf for none.
     alpha : float
@@ -68,7 +69,7 @@ class Options:
     constraints: bool = True
     seed: int = 0
     threads: int = 0
-    coarse: int = 50_000
+    coarse: Literal["auto", "on", "off"] = "auto"
     max_edge: float = 0.03
     alpha: float = 0.9
     epsilon: float = 0.02
@@ -109,16 +110,16 @@ _OPTIONAL = ("regions", "insertion_threshold")
 CHOICES = {
     "method": ("quadrics", "vsa", "qsf", "hfp", "ransac"),
     "preset": ("default", "paper"),
+    "coarse": ("auto", "on", "off"),
     "seeds": ("region", "triangle"),
 }
 #: Fields that are whole numbers.
-WHOLE = ("regions", "seed", "threads", "coarse", "tau", "seed_candidates", "max_iterations")
+WHOLE = ("regions", "seed", "threads", "tau", "seed_candidates", "max_iterations")
 #: Least and greatest value of every number.
 _RANGES: dict[str, tuple[float, float]] = {
     "regions": (1, 2**31 - 1),
     "seed": (0, 2**63 - 1),
     "threads": (0, 4096),
-    "coarse": (0, 2**31 - 1),
     "max_edge": (1e-4, inf),
     "alpha": (-1, 1),
     "epsilon": (0, 1),

@@ -4,7 +4,7 @@ use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use quadrics::options::{Method, Preset, Seeds};
+use quadrics::options::{Coarse, Method, Preset, Seeds};
 use quadrics::result::{Region, Relation, Segmentation, Side};
 use quadrics::{Options, pipeline};
 
@@ -116,6 +116,7 @@ macro_rules! choice {
     };
 }
 
+choice!(Coarse { Auto = "auto", On = "on", Off = "off" });
 choice!(Method {
     Quadrics = "quadrics",
     Vsa = "vsa",

@@ -38,8 +38,17 @@ pub enum Seeds {
     Triangle,
 }
 
-/// A mesh is coarsened where that leaves half of its faces or less: it would not pay otherwise.
-pub const COARSER: usize = 2;
+/// Whether surfaces are sought on a coarser mesh, and its faces then choose among them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Coarse {
+    /// Where the mesh is large and its own faces do not show its surfaces, or it is very large.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
+}
 
 /// All options of a segmentation. Lengths are fractions of the longest side of the part.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,9 +65,8 @@ pub struct Options {
     pub seed: u64,
     /// Threads to use; 0 for all cores. The result does not depend on it.
     pub threads: usize,
-    /// `default`: a mesh of more than [`COARSER`] times as many faces is coarsened to about so many,
-    /// on which surfaces are sought; its own faces then choose among them. 0 for never.
-    pub coarse: usize,
+    /// `default`: whether surfaces are sought on a coarser mesh.
+    pub coarse: Coarse,
     /// `paper`: longest edge after subdivision (4.1). Fraction of the size; infinite for none.
     pub max_edge: f64,
     /// `paper`: least cosine between a face's normal and the shape's (α of 5.1).
@@ -96,7 +104,7 @@ impl Default for Options {
             constraints: true,
             seed: 0,
             threads: 0,
-            coarse: 50_000,
+            coarse: Coarse::Auto,
             max_edge: 0.03,
             alpha: 0.9,
             epsilon: 0.02,

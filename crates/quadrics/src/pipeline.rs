@@ -7,10 +7,12 @@ use crate::describe::{Recognised, describe, fit_all};
 use crate::error::{Error, Result};
 use crate::math::Similarity;
 use crate::mesh::{Mesh, Working, repair};
-use crate::options::{COARSER, Method, Options, Preset};
+use crate::options::{self, Method, Options, Preset};
 use crate::paper::paper;
 use crate::partition::{Labels, Regions, UNLABELLED, compact, hand_out, separate};
-use crate::prepare::{Coarse, coarsen, in_own_cube, in_unit_cube, labels_back, subdivide};
+use crate::prepare::{
+    Coarse, coarsen, in_own_cube, in_unit_cube, is_faceted, labels_back, subdivide,
+};
 use crate::recognise::assign::{self, Model};
 use crate::recognise::detect::side_of;
 use crate::recognise::{self, Outcome, carry, evidence, moves, scene::Scene};
@@ -189,7 +191,7 @@ fn by_default(
     if cube.len() < FEW_FACES {
         return subdivided(context, cube, scene, options, start);
     }
-    if options.coarse > 0 && cube.len() > COARSER * options.coarse {
+    if context.timed("prepare", |_| Ok(is_too_fine(cube, scene, options.coarse)))? {
         return coarsened(context, cube, scene, options, start);
     }
     context.timed("prepare", |_| {
@@ -227,6 +229,26 @@ fn subdivided(
     context.timed("back", |_| Ok(back(outcome, &working, &fine.parents, scene)))
 }
 
+/// Faces of the coarser mesh, and how many there must be for each; from how many on it always pays.
+const COARSE_FACES: usize = 50_000;
+const FACES_FOR_ONE: usize = 2;
+const VERY_LARGE: usize = 2_000_000;
+/// Where sigma is above this share of an edge, faces say less of the surfaces than a coarser mesh.
+const NOISY: f64 = 1.0 / 3.0;
+
+/// Whether surfaces are better sought on a coarser mesh.
+fn is_too_fine(cube: &Working, scene: &Scene, choice: options::Coarse) -> bool {
+    let count = cube.len();
+    match choice {
+        options::Coarse::Off => false,
+        options::Coarse::On => true,
+        options::Coarse::Auto if count < FACES_FOR_ONE * COARSE_FACES => false,
+        options::Coarse::Auto => {
+            count >= VERY_LARGE || scene.evidence.sigma > NOISY * scene.edge || is_faceted(cube)
+        }
+    }
+}
+
 /// On a coarser mesh; then the faces choose among its surfaces.
 fn coarsened(
     context: &mut Context,
@@ -236,15 +258,16 @@ fn coarsened(
     start: Option<&[u32]>,
 ) -> Result<Found> {
     let noise = scene.evidence.sigma / scene.edge;
-    let Coarse { mesh, site, origin, averaged } =
-        context.timed("coarsen", |_| Ok(coarsen(cube, options.coarse, noise)))?;
+    let Coarse { mesh, site, origin, averaged } = context.timed("coarsen", |_| {
+        Ok(coarsen(cube, COARSE_FACES.min(cube.len() / FACES_FOR_ONE), noise))
+    })?;
     let working = Working::new(mesh);
     let mut coarse = context.timed("prepare", |_| Ok(Scene::raw(&working)))?;
     let start: Option<Labels> =
         start.map(|labels| origin.iter().map(|&face| labels[face as usize]).collect());
-    let options = Options { coarse: 0, ..options.clone() };
+    let options = Options { coarse: options::Coarse::Off, ..options.clone() };
     let found = by_default(context, &working, &mut coarse, &options, start.as_deref())?;
-    context.timed("carry", |_| {
+    let (mut models, mut labels) = context.timed("carry", |_| {
         scene.grain = (cube.len() / working.len().max(1)).max(1) as u32;
         if averaged > 1 {
             scene.normals = carry::normals(scene, &coarse, &site).into();
@@ -256,9 +279,18 @@ fn coarsened(
         scene.evidence = Evidence { normal_sigma, ..coarse.evidence };
         let mut models = models(&coarse, &found.labels, found.surfaces);
         let labels = &found.labels;
-        let mut labels = carry::carry(scene, &working.adjacency, &site, labels, &mut models);
+        let labels = carry::carry(scene, &working.adjacency, &site, labels, &mut models);
         let surfaces: Vec<Surface> = models.iter().map(|model| model.surface.clone()).collect();
         evidence::carried(scene, &surfaces, &labels, averaged > 1);
+        Ok((models, labels))
+    })?;
+    // What noise hides from means of vertices, single ones do not show.
+    if averaged == 1 && options.regions.is_none() {
+        context.timed("complete", |context| {
+            carry::complete(context, scene, &mut models, &mut labels)
+        })?;
+    }
+    context.timed("settle", |_| {
         carry::settle(scene, &mut models, &mut labels);
         let surfaces: Vec<Surface> = models.into_iter().map(|model| model.surface).collect();
         let parents: Vec<u32> = (0..cube.len() as u32).collect();

@@ -177,6 +177,25 @@ fn rank(fine: &Working, vertex: u32) -> Rank {
     Rank::new(creased, bent)
 }
 
+/// Fewest vertices where facets meet that speak, and the share of them that must be alone.
+const MEETINGS: usize = 100;
+const ALONE: f64 = 0.9;
+
+/// Whether a mesh is made of flat facets of several faces each, as a coarse mesh is after its faces
+/// were divided: where facets meet, no vertex has another such vertex beside it.
+pub fn is_faceted(fine: &Working) -> bool {
+    let ranks = ranks(fine);
+    let bent = |vertex: u32| ranks[vertex as usize] == Rank::Bent;
+    let alone = |vertex: u32| {
+        let mut alone = true;
+        for_each_neighbour(fine, vertex, |other| alone &= !bent(other));
+        alone
+    };
+    let meetings: Vec<u32> = (0..ranks.len() as u32).filter(|&v| bent(v)).collect();
+    let count = meetings.iter().filter(|&&v| alone(v)).count();
+    meetings.len() >= MEETINGS && count as f64 >= ALONE * meetings.len() as f64
+}
+
 /// Whether each vertex is in a component that is too small to be coarsened.
 fn kept(fine: &Working, size: usize) -> Vec<bool> {
     let (component, sizes) = components(&vec![0; fine.len()], &fine.adjacency);
@@ -258,6 +277,16 @@ mod tests {
             corners.sort_unstable();
             assert_eq!(sites, corners);
         }
+    }
+
+    #[test]
+    fn a_mesh_whose_faces_were_divided_is_faceted() {
+        let plain = synth::part("demo", 20_000).unwrap().mesh;
+        let edge = plain.size() / 100.0;
+        let divided = crate::prepare::subdivide(plain.clone(), edge).unwrap();
+        assert!(!is_faceted(&Working::new(plain)));
+        assert!(divided.mesh.faces.len() > 50_000);
+        assert!(is_faceted(&Working::new(divided.mesh)));
     }
 
     #[test]

@@ -3,11 +3,14 @@
 use rayon::prelude::*;
 
 use super::assign::{self, Model, face_cost};
-use super::moves;
 use super::scene::Scene;
+use super::{detect, evidence, merge, moves};
+use crate::context::Context;
+use crate::error::Result;
 use crate::math::Vector;
 use crate::mesh::Adjacency;
-use crate::partition::{Labels, UNLABELLED};
+use crate::partition::{Labels, UNLABELLED, components};
+use crate::surface::{Shape, Surface};
 
 /// Labels of the faces of a mesh, from those of the coarser one that surfaces were found on.
 ///
@@ -41,7 +44,79 @@ pub fn carry(
     labels
 }
 
-/// Cuts between the surfaces that were carried up, where they compete.
+/// Seeks surfaces where none that was carried up explains the faces: what is too small for the
+/// coarser mesh to show.
+///
+/// # Errors
+/// Cancellation.
+pub fn complete(
+    context: &mut Context,
+    scene: &Scene,
+    models: &mut Vec<Model>,
+    labels: &mut Labels,
+) -> Result<()> {
+    let surfaces: Vec<Surface> = models.iter().map(|model| model.surface.clone()).collect();
+    // Facets lie off the surface that they were made from, but nearly all of them.
+    let most = evidence::distances(scene, &surfaces, labels, MOST);
+    let turn = 2.0 - 2.0 * detect::CREASE.cos();
+    let strange = |(face, &label): (usize, &u32)| {
+        let (model, most) = (&models[label as usize], most[label as usize]);
+        let reach = STRANGE * most.max(scene.evidence.sigma);
+        !explains(scene, model, face, reach * reach, turn)
+    };
+    let strange: Vec<bool> =
+        labels.par_iter().with_min_len(4096).enumerate().map(strange).collect();
+    let marks: Vec<u32> = strange.iter().map(|&strange| u32::from(strange)).collect();
+    let (component, sizes) = components(&marks, scene.adjacency);
+    for (face, label) in labels.iter_mut().enumerate().filter(|(face, _)| strange[*face]) {
+        if sizes[component[face] as usize] as usize >= detect::FEWEST {
+            *label = UNLABELLED;
+        }
+    }
+    let found = detect::explain(context, scene, labels, models.len() as u32, 1.0)?;
+    let found = found.unwrap_or_default();
+    let nothing = found.is_empty();
+    models.extend(found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }));
+    assign::flood(scene, models, labels);
+    assign::name_the_rest(scene, models, labels);
+    if nothing {
+        return Ok(());
+    }
+    // What was found may be a piece of a region beside it.
+    moves::drop_needless(scene, models, labels);
+    moves::tidy(models, labels);
+    merge::merge(context, scene, models, labels)
+}
+
+/// A face is not explained when it is so many times farther than this share of its region.
+const STRANGE: f64 = 3.0;
+const MOST: f64 = 0.8;
+
+/// Whether a face is near enough, and turned as the surface is.
+fn explains(scene: &Scene, model: &Model, face: usize, near: f64, turn: f64) -> bool {
+    fn of<S: Shape>(
+        scene: &Scene,
+        shape: &S,
+        side: f64,
+        face: usize,
+        near: f64,
+        turn: f64,
+    ) -> bool {
+        scene.squared_distance(shape, face) < near
+            && scene.normal_deviation(shape, face, side) < turn
+    }
+    match &model.surface {
+        Surface::Plane(s) => of(scene, s, model.side, face, near, turn),
+        Surface::Sphere(s) => of(scene, s, model.side, face, near, turn),
+        Surface::Cylinder(s) => of(scene, s, model.side, face, near, turn),
+        Surface::Cone(s) => of(scene, s, model.side, face, near, turn),
+        Surface::Torus(s) => of(scene, s, model.side, face, near, turn),
+        Surface::Quadric(s) => of(scene, s, model.side, face, near, turn),
+        Surface::FreeForm => true,
+    }
+}
+
+/// Cuts between surfaces where they compete.
 pub fn settle(scene: &Scene, models: &mut Vec<Model>, labels: &mut Labels) {
     assign::expand(scene, models, labels);
     assign::connect(scene, models, labels);
