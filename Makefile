@@ -8,10 +8,10 @@ RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.l
 DEMO ?= demo
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test test-all check lint format
+.PHONY: help setup build demo test test-all check instructions bench lint format
 
 help: ## This list
-	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: $(VENV)/.built ## .venv with the program and all tools (done once, then only what changed)
 
@@ -31,17 +31,23 @@ test-all: setup ## The slow ones too
 lint: setup ## Formatters in check mode, clippy, ruff, mypy, stubs against the module
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
-	$(BIN)/ruff format --check python tests examples
-	$(BIN)/ruff check python tests examples
+	$(BIN)/ruff format --check python tests examples benchmarks
+	$(BIN)/ruff check python tests examples benchmarks
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest quadrics._core
 
 check: lint test ## What a commit must pass
 
+instructions: setup ## Fails where a stage takes more instructions than on record (needs valgrind)
+	$(BIN)/python benchmarks/instructions.py
+
+bench: setup ## Whole programs, ours and rivals that are built, 10 k to 1 M faces (minutes)
+	$(BIN)/python benchmarks/whole.py --faces 10000 100000 1000000
+
 format: setup ## Put the sources in shape
 	cargo fmt --all
-	$(BIN)/ruff format python tests examples
-	$(BIN)/ruff check --fix python tests examples
+	$(BIN)/ruff format python tests examples benchmarks
+	$(BIN)/ruff check --fix python tests examples benchmarks
 
 $(BIN)/python:
 	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); tools/debian-venv $(PYTHON) $(VENV); }

@@ -283,3 +283,11 @@ def test_relations_hold_to_rounding_and_can_be_left_out() -> None:
     held = [relation for relation in result.relations if relation.status != "refused"]
     assert all(relation.residual_after < 1e-6 for relation in held)
     assert quadrics.segment(part.mesh, seed=0, constraints=False).relations == ()
+
+
+def test_a_coarser_mesh_leads_to_the_same_regions() -> None:
+    part = quadrics.synth.part("shaft", 60_000)
+    coarse = quadrics.segment(part.mesh, coarse="on")
+    whole = quadrics.segment(part.mesh, coarse="off")
+    assert quadrics.evaluate(coarse, whole).hamming < 0.01
+    assert quadrics.evaluate(coarse, part).f1 == quadrics.evaluate(whole, part).f1 == 1.0

@@ -16,12 +16,13 @@ __all__ = [
     "inspect",
     "noise",
     "normal",
+    "paint",
     "part",
     "part_names",
     "project",
     "read",
-    "render",
     "scan",
+    "see",
     "segment",
     "write",
     "write_segmentation",
@@ -119,9 +120,15 @@ def project(
     kind: str, numbers: list[float], points: NDArray[np.float64]
 ) -> NDArray[np.float64]: ...
 def coefficients(kind: str, numbers: list[float]) -> list[float] | None: ...
-def render(
+def see(
     positions: NDArray[np.float64],
     faces: NDArray[np.uint32],
+    toward_eye: tuple[float, float, float],
+    width: int,
+    height: int,
+) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]: ...
+def paint(
+    samples: NDArray[np.uint32],
     colours: NDArray[np.uint8],
     normals: NDArray[np.float64],
     labels: NDArray[np.int32],

@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from quadrics import _core
 from quadrics.files import write_whole
 from quadrics.mesh import Mesh
-from quadrics.picture import HEIGHT, TOWARD_EYE, WIDTH
+from quadrics.picture import HEIGHT, look
 
 #: From nothing to the most: darker and redder, also for who sees no colours.
 RAMP = np.array([(247, 247, 247), (253, 212, 158), (252, 141, 89), (179, 0, 0), (70, 0, 10)])
@@ -31,11 +30,9 @@ def colours(values: NDArray[np.float64], most: float) -> NDArray[np.uint8]:
 
 def heat_view(mesh: Mesh, of_vertex: NDArray[np.float64], most: float) -> NDArray[np.uint8]:
     """Draw one mesh: pixels (height, width, 3)."""
-    of_face = colours(of_vertex[mesh.faces].mean(axis=1), most)
-    flat = np.zeros(len(mesh.faces), np.int32)
-    return _core.render(
-        mesh.vertices, mesh.faces, of_face, mesh.normals(), flat, TOWARD_EYE, WIDTH, HEIGHT
-    )
+    seen = look(mesh)
+    of_face = colours(of_vertex[mesh.faces[seen.faces]].mean(axis=1), most)
+    return seen.draw(of_face, seen.normals(), np.zeros(len(seen.faces), np.int32))
 
 
 def write_map(path: Path, views: Sequence[tuple[Mesh, NDArray[np.float64]]]) -> None:

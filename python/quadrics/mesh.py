@@ -90,16 +90,13 @@ class Mesh:
 
     def areas(self) -> NDArray[np.float64]:
         """Measure the triangles."""
-        area: NDArray[np.float64] = np.linalg.norm(_double_normals(self), axis=1) / 2
+        double = _double_normals(self.vertices, self.faces)
+        area: NDArray[np.float64] = np.linalg.norm(double, axis=1) / 2
         return area
 
     def normals(self) -> NDArray[np.float64]:
         """Give unit normals of the triangles; zero where a triangle has no area."""
-        double = _double_normals(self)
-        length = np.linalg.norm(double, axis=1, keepdims=True)
-        unit: NDArray[np.float64] = np.zeros_like(double)
-        np.divide(double, length, out=unit, where=length > 0)
-        return unit
+        return normals_of(self.vertices, self.faces)
 
 
 def as_mesh(source: MeshLike) -> Mesh:
@@ -183,8 +180,19 @@ def _indices(values: ArrayLike) -> NDArray[np.uint32]:
     return np.ascontiguousarray(faces, dtype=np.uint32)
 
 
-def _double_normals(mesh: Mesh) -> NDArray[np.float64]:
-    corners = mesh.vertices[mesh.faces]
+def normals_of(vertices: NDArray[np.float64], faces: NDArray[np.uint32]) -> NDArray[np.float64]:
+    """Give unit normals of some triangles; zero where one has no area."""
+    double = _double_normals(vertices, faces)
+    length = np.linalg.norm(double, axis=1, keepdims=True)
+    unit: NDArray[np.float64] = np.zeros_like(double)
+    np.divide(double, length, out=unit, where=length > 0)
+    return unit
+
+
+def _double_normals(
+    vertices: NDArray[np.float64], faces: NDArray[np.uint32]
+) -> NDArray[np.float64]:
+    corners = vertices[faces]
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 

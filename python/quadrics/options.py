@@ -33,6 +33,10 @@ class Options:
         Seed of every random choice: the same seed gives the same result.
     threads : int
         Threads to use, 0 for all cores; the result does not depend on it.
+    coarse : {"auto", "on", "off"}
+        Whether surfaces are sought on a coarser mesh, whose surfaces the faces then choose among:
+        of its own accord from 100,000 faces where the noise is above a third of an edge or the
+        mesh is made of flat facets of several faces, and always from two million.
     max_edge : float
         Longest edge after subdivision (paper, 4.1), as a fraction of the size; inf for none.
     alpha : float
@@ -67,6 +71,7 @@ class Options:
     constraints: bool | dict[str, Any] | str | os.PathLike[str] = True
     seed: int = 0
     threads: int = 0
+    coarse: Literal["auto", "on", "off"] = "auto"
     max_edge: float = 0.03
     alpha: float = 0.9
     epsilon: float = 0.02
@@ -109,6 +114,7 @@ _OPTIONAL = ("regions", "insertion_threshold")
 CHOICES = {
     "method": ("quadrics", "vsa", "qsf", "hfp", "ransac"),
     "preset": ("default", "paper"),
+    "coarse": ("auto", "on", "off"),
     "seeds": ("region", "triangle"),
 }
 #: Fields that are whole numbers.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import colorsys
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quadrics import _core
+from quadrics.mesh import Mesh, normals_of
 from quadrics.surfaces import FreeForm
 
 if TYPE_CHECKING:
-    from quadrics.mesh import Mesh
     from quadrics.result import Result
 
 #: Pixels of one of the two views.
@@ -29,25 +29,66 @@ def write_picture(path: Path, result: Result) -> None:
     """Draw both views and write the PNG; the same result gives the same bytes."""
     from PIL import Image
 
-    Image.fromarray(np.hstack([plain_view(result.mesh), region_view(result)])).save(path, "PNG")
+    seen = look(result.mesh)
+    views = [_plain(seen), _regions(seen, result)]
+    # Half as large as uncompressed in an eighth of the time that the best compression takes.
+    Image.fromarray(np.hstack(views)).save(path, "PNG", compress_level=3)
 
 
 def plain_view(mesh: Mesh) -> NDArray[np.uint8]:
     """Draw a mesh in grey: pixels (HEIGHT, WIDTH, 3)."""
-    grey = np.tile(np.array(GREY, np.uint8), (len(mesh.faces), 1))
-    return _draw(mesh, grey, mesh.normals(), np.zeros(len(mesh.faces), np.int32))
+    return _plain(look(mesh))
 
 
 def region_view(result: Result, shown: NDArray[np.bool_] | None = None) -> NDArray[np.uint8]:
     """Draw the regions in colours, with the normals of their surfaces; only `shown` triangles."""
-    if len(result.regions) == 0:
-        return plain_view(result.mesh)
-    labels, normals = result.triangle_labels, _surface_normals(result)
-    colours, mesh = region_colours(result)[labels], result.mesh
+    mesh = result.mesh
     if shown is None:
-        return _draw(mesh, colours, normals, labels)
-    part = replace(mesh, faces=mesh.faces[shown])
-    return _draw(part, colours[shown], normals[shown], labels[shown])
+        return _regions(look(mesh), result)
+    part = look(replace(mesh, faces=mesh.faces[shown]))
+    faces = np.flatnonzero(shown).astype(np.uint32)[part.faces]
+    return _regions(Seen(mesh, faces, part.samples), result)
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What is seen of a mesh: only this is coloured, however many faces lie behind."""
+
+    mesh: Mesh
+    #: The faces that are seen, (k,), ascending.
+    faces: NDArray[np.uint32]
+    #: The place in `faces` of what every sample of the picture shows.
+    samples: NDArray[np.uint32]
+
+    def normals(self) -> NDArray[np.float64]:
+        """Give the unit normals of `faces`, (k, 3)."""
+        return normals_of(self.mesh.vertices, self.mesh.faces[self.faces])
+
+    def draw(
+        self,
+        colours: NDArray[np.uint8],
+        normals: NDArray[np.float64],
+        labels: NDArray[np.int32],
+    ) -> NDArray[np.uint8]:
+        """Draw with a colour, a normal and a label for each of `faces`."""
+        return _core.paint(self.samples, colours, normals, labels, TOWARD_EYE, WIDTH, HEIGHT)
+
+
+def look(mesh: Mesh) -> Seen:
+    """Find out what is seen of a mesh."""
+    return Seen(mesh, *_core.see(mesh.vertices, mesh.faces, TOWARD_EYE, WIDTH, HEIGHT))
+
+
+def _plain(seen: Seen) -> NDArray[np.uint8]:
+    grey = np.tile(np.array(GREY, np.uint8), (len(seen.faces), 1))
+    return seen.draw(grey, seen.normals(), np.zeros(len(seen.faces), np.int32))
+
+
+def _regions(seen: Seen, result: Result) -> NDArray[np.uint8]:
+    if len(result.regions) == 0:
+        return _plain(seen)
+    labels = result.triangle_labels[seen.faces]
+    return seen.draw(region_colours(result)[labels], _surface_normals(seen, result, labels), labels)
 
 
 def region_colours(result: Result) -> NDArray[np.uint8]:
@@ -66,28 +107,17 @@ def _colour(number: int) -> tuple[int, int, int]:
     return round(255 * red), round(255 * green), round(255 * blue)
 
 
-def _draw(
-    mesh: Mesh,
-    colours: NDArray[np.uint8],
-    normals: NDArray[np.float64],
-    labels: NDArray[np.int32],
-) -> NDArray[np.uint8]:
-    return _core.render(
-        mesh.vertices, mesh.faces, colours, normals, labels, TOWARD_EYE, WIDTH, HEIGHT
-    )
-
-
-def _surface_normals(result: Result) -> NDArray[np.float64]:
+def _surface_normals(seen: Seen, result: Result, labels: NDArray[np.int32]) -> NDArray[np.float64]:
     """Take normals of the surfaces, not of the noisy faces: what was recognised is smooth."""
-    mesh = result.mesh
-    normals = mesh.normals()
-    order = np.argsort(result.triangle_labels, kind="stable")
-    ends = np.searchsorted(result.triangle_labels[order], np.arange(len(result.regions) + 1))
+    normals = seen.normals()
+    middles = seen.mesh.vertices[seen.mesh.faces[seen.faces]].mean(axis=1)
+    order = np.argsort(labels, kind="stable")
+    ends = np.searchsorted(labels[order], np.arange(len(result.regions) + 1))
     for region in result.regions:
-        if isinstance(region.surface, FreeForm):
-            continue
         faces = order[ends[region.id] : ends[region.id + 1]]
-        smooth = region.surface.normal(mesh.vertices[mesh.faces[faces]].mean(axis=1))
+        if isinstance(region.surface, FreeForm) or len(faces) == 0:
+            continue
+        smooth = region.surface.normal(middles[faces])
         same_way = np.sign((smooth * normals[faces]).sum(axis=1))[:, None]
         known = np.isfinite(smooth).all(axis=1)
         normals[faces[known]] = (smooth * same_way)[known]

@@ -5,7 +5,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use quadrics::constrain::Demands;
-use quadrics::options::{Method, Preset, Seeds};
+use quadrics::options::{Coarse, Method, Preset, Seeds};
 use quadrics::result::{Region, Segmentation, Side};
 use quadrics::{Options, pipeline};
 
@@ -61,6 +61,7 @@ by_name!(
     constraints,
     seed,
     threads,
+    coarse,
     max_edge,
     alpha,
     epsilon,
@@ -129,6 +130,7 @@ macro_rules! choice {
     };
 }
 
+choice!(Coarse { Auto = "auto", On = "on", Off = "off" });
 choice!(Method {
     Quadrics = "quadrics",
     Vsa = "vsa",

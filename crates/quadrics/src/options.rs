@@ -39,6 +39,18 @@ pub enum Seeds {
     Triangle,
 }
 
+/// Whether surfaces are sought on a coarser mesh, and its faces then choose among them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Coarse {
+    /// Where the mesh is large and its own faces do not show its surfaces, or it is very large.
+    #[default]
+    Auto,
+    /// Always.
+    On,
+    /// Never.
+    Off,
+}
+
 /// All options of a segmentation. Lengths are fractions of the longest side of the part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
@@ -55,6 +67,8 @@ pub struct Options {
     pub seed: u64,
     /// Threads to use; 0 for all cores. The result does not depend on it.
     pub threads: usize,
+    /// `default`: whether surfaces are sought on a coarser mesh.
+    pub coarse: Coarse,
     /// `paper`: longest edge after subdivision (4.1). Fraction of the size; infinite for none.
     pub max_edge: f64,
     /// `paper`: least cosine between a face's normal and the shape's (α of 5.1).
@@ -92,6 +106,7 @@ impl Default for Options {
             constraints: Some(Demands::default()),
             seed: 0,
             threads: 0,
+            coarse: Coarse::Auto,
             max_edge: 0.03,
             alpha: 0.9,
             epsilon: 0.02,

@@ -24,30 +24,57 @@ const BACKGROUND: [u8; 3] = [255, 255, 255];
 /// Between regions, and around the part.
 const LINE: [f64; 3] = [30.0, 30.0, 35.0];
 /// Samples a pixel has along each side: lines and outlines come out smooth.
-const SAMPLES: usize = 2;
+pub const SAMPLES: usize = 2;
 /// Share of the picture that the part fills.
 const FILL: f64 = 0.92;
 /// Rows of samples that one task draws: a fixed number, so that tasks never differ in their work.
 const BAND: usize = 64;
 /// No face.
-const NOTHING: u32 = u32::MAX;
+pub const NOTHING: u32 = u32::MAX;
 
-/// The pixels, row by row: one colour, shading normal and label a face.
-pub fn render(
-    mesh: &Mesh,
+/// What is seen of a mesh: samples row by row, `SAMPLES` times as many as pixels along each side.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Seen {
+    /// The faces that are seen, ascending.
+    pub faces: Vec<u32>,
+    /// For every sample the place in `faces` of the nearest face, or [`NOTHING`].
+    pub samples: Vec<u32>,
+}
+
+/// Which face is seen at every sample of the picture.
+pub fn see(mesh: &Mesh, view: &View) -> Seen {
+    let (width, height) = (view.width * SAMPLES, view.height * SAMPLES);
+    let camera = Camera::new(mesh, view, width, height);
+    let screen: Vec<Vector> = mesh.positions.par_iter().map(|p| camera.screen(p)).collect();
+    let mut samples = vec![NOTHING; width * height];
+    let bands = bands(mesh, &screen, height);
+    samples.par_chunks_mut(BAND * width).zip(&bands).enumerate().for_each(
+        |(band, (rows, faces))| draw_band(mesh, &screen, faces, rows, width, band * BAND),
+    );
+    let mut place = vec![NOTHING; mesh.faces.len()];
+    samples.iter().filter(|&&face| face != NOTHING).for_each(|&face| place[face as usize] = 0);
+    let faces: Vec<u32> = (0..place.len() as u32).filter(|&f| place[f as usize] == 0).collect();
+    faces.iter().zip(0..).for_each(|(&face, i)| place[face as usize] = i);
+    let named = samples.iter_mut().filter(|sample| **sample != NOTHING);
+    named.for_each(|sample| *sample = place[*sample as usize]);
+    Seen { faces, samples }
+}
+
+/// The pixels, row by row: one colour, shading normal and label for each of the faces that are seen.
+///
+/// # Panics
+/// If there are fewer samples than the view asks for, or fewer colours, normals or labels than faces.
+pub fn paint(
+    samples: &[u32],
     colours: &[[u8; 3]],
     normals: &[Vector],
     labels: &[i32],
     view: &View,
 ) -> Vec<[u8; 3]> {
     let (width, height) = (view.width * SAMPLES, view.height * SAMPLES);
-    let camera = Camera::new(mesh, view, width, height);
-    let screen: Vec<Vector> = mesh.positions.par_iter().map(|p| camera.screen(p)).collect();
-    let mut seen = vec![NOTHING; width * height];
-    seen.par_chunks_mut(BAND * width)
-        .enumerate()
-        .for_each(|(band, rows)| draw_band(mesh, &screen, rows, width, band * BAND));
-    let label = |sample: usize| match seen[sample] {
+    assert!(samples.len() >= width * height);
+    let light = Light::new(view);
+    let label = |sample: usize| match samples[sample] {
         NOTHING => i32::MIN,
         face => labels[face as usize],
     };
@@ -58,23 +85,52 @@ pub fn render(
         if label(sample) != label(right) || label(sample) != label(below) {
             return LINE;
         }
-        match seen[sample] {
+        match samples[sample] {
             NOTHING => BACKGROUND.map(f64::from),
-            face => camera.light(&normals[face as usize], colours[face as usize]),
+            face => light.on(&normals[face as usize], colours[face as usize]),
         }
     };
     let pixel = |index: usize| average(index % view.width, index / view.width, width, shade);
     (0..view.width * view.height).into_par_iter().map(pixel).collect()
 }
 
+/// First and last row of samples that a face may cover; first after last where it covers none.
+fn rows_of(screen: &[Vector], corners: &[u32; 3]) -> (f64, f64) {
+    let [a, b, c] = corners.map(|v| screen[v as usize].y);
+    (a.min(b).min(c).ceil(), a.max(b).max(c).floor())
+}
+
+/// The faces that each band of rows has to draw, ascending.
+fn bands(mesh: &Mesh, screen: &[Vector], height: usize) -> Vec<Vec<u32>> {
+    let mut bands = vec![Vec::new(); height.div_ceil(BAND)];
+    for (face, corners) in mesh.faces.iter().enumerate() {
+        let (first, last) = rows_of(screen, corners);
+        if first <= last && last >= 0.0 && first < height as f64 {
+            let last = (last as usize).min(height - 1);
+            for band in &mut bands[first.max(0.0) as usize / BAND..=last / BAND] {
+                band.push(face as u32);
+            }
+        }
+    }
+    bands
+}
+
 /// Fills the nearest face of every sample in rows `first ..`.
-fn draw_band(mesh: &Mesh, screen: &[Vector], rows: &mut [u32], width: usize, first: usize) {
+fn draw_band(
+    mesh: &Mesh,
+    screen: &[Vector],
+    faces: &[u32],
+    rows: &mut [u32],
+    width: usize,
+    first: usize,
+) {
     let last = first + rows.len() / width;
     let mut depth = vec![f64::NEG_INFINITY; rows.len()];
-    for (face, corners) in mesh.faces.iter().enumerate() {
+    for &face in faces {
+        let corners = mesh.faces[face as usize];
         let [a, b, c] = corners.map(|v| screen[v as usize]);
-        let top = a.y.min(b.y).min(c.y).ceil().max(first as f64);
-        let bottom = (a.y.max(b.y).max(c.y).floor() + 1.0).min(last as f64);
+        let (top, bottom) = rows_of(screen, &corners);
+        let (top, bottom) = (top.max(first as f64), (bottom + 1.0).min(last as f64));
         let left = a.x.min(b.x).min(c.x).ceil().max(0.0);
         let right = (a.x.max(b.x).max(c.x).floor() + 1.0).min(width as f64);
         let double_area = (b - a).xy().perp(&(c - a).xy());
@@ -94,7 +150,7 @@ fn draw_band(mesh: &Mesh, screen: &[Vector], rows: &mut [u32], width: usize, fir
                 // Ties go to the lower face index.
                 if z > depth[sample] {
                     depth[sample] = z;
-                    rows[sample] = face as u32;
+                    rows[sample] = face;
                 }
             }
         }
@@ -113,23 +169,41 @@ fn average(x: usize, y: usize, width: usize, shade: impl Fn(usize) -> [f64; 3]) 
     sum.map(|total| (total / (SAMPLES * SAMPLES) as f64).round() as u8)
 }
 
-/// Where points fall on the picture: `z` grows toward the eye.
-struct Camera {
+/// The directions of the picture, and its light at the eye.
+#[derive(Clone, Copy)]
+struct Light {
     right: Vector,
     down: Vector,
     eye: Vector,
+}
+
+impl Light {
+    fn new(view: &View) -> Self {
+        let eye = Unit::try_new(view.toward_eye, 0.0).unwrap_or_else(Vector::z_axis).into_inner();
+        // Up on the picture is z; seen from above, it is y.
+        let up = if eye.xy().norm() > 1e-6 { Vector::z() } else { Vector::y() };
+        let right = up.cross(&eye).normalize();
+        Self { right, down: right.cross(&eye), eye }
+    }
+
+    /// Colour of a face; both sides are lit, scans are often open.
+    fn on(&self, normal: &Vector, colour: [u8; 3]) -> [f64; 3] {
+        let sideways = normal.dot(&(self.down * -0.35 + self.right * -0.25)).max(-0.3);
+        let brightness = (0.42 + 0.58 * normal.dot(&self.eye).abs() + 0.25 * sideways).min(1.0);
+        colour.map(|channel| f64::from(channel) * brightness)
+    }
+}
+
+/// Where points fall on the picture: `z` grows toward the eye.
+struct Camera {
+    axes: Light,
     scale: f64,
     shift: Vector,
 }
 
 impl Camera {
     fn new(mesh: &Mesh, view: &View, width: usize, height: usize) -> Self {
-        let eye = Unit::try_new(view.toward_eye, 0.0).unwrap_or_else(Vector::z_axis).into_inner();
-        // Up on the picture is z; seen from above, it is y.
-        let up = if eye.xy().norm() > 1e-6 { Vector::z() } else { Vector::y() };
-        let right = up.cross(&eye).normalize();
-        let down = right.cross(&eye);
-        let mut camera = Self { right, down, eye, scale: 1.0, shift: Vector::zeros() };
+        let mut camera = Self { axes: Light::new(view), scale: 1.0, shift: Vector::zeros() };
         let used = mesh.faces.iter().flatten().map(|&v| camera.screen(&mesh.positions[v as usize]));
         let (low, high) = used.fold(
             (Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY)),
@@ -146,15 +220,9 @@ impl Camera {
 
     fn screen(&self, point: &Point) -> Vector {
         let p = &point.coords;
-        let flat = Vector::new(self.right.dot(p), self.down.dot(p), self.eye.dot(p));
+        let Light { right, down, eye } = self.axes;
+        let flat = Vector::new(right.dot(p), down.dot(p), eye.dot(p));
         flat * self.scale + self.shift
-    }
-
-    /// Colour of a face under a light at the eye; both sides are lit, scans are often open.
-    fn light(&self, normal: &Vector, colour: [u8; 3]) -> [f64; 3] {
-        let sideways = normal.dot(&(self.down * -0.35 + self.right * -0.25)).max(-0.3);
-        let brightness = (0.42 + 0.58 * normal.dot(&self.eye).abs() + 0.25 * sideways).min(1.0);
-        colour.map(|channel| f64::from(channel) * brightness)
     }
 }
 
@@ -167,9 +235,11 @@ mod tests {
     }
 
     fn draw(mesh: &Mesh, colours: &[[u8; 3]], toward_eye: Vector) -> Vec<[u8; 3]> {
-        let normals = vec![Vector::z(); mesh.faces.len()];
-        let labels = vec![0; mesh.faces.len()];
-        render(mesh, colours, &normals, &labels, &View { toward_eye, width: 40, height: 40 })
+        let view = View { toward_eye, width: 40, height: 40 };
+        let Seen { faces, samples } = see(mesh, &view);
+        let colours: Vec<_> = faces.iter().map(|&face| colours[face as usize]).collect();
+        let normals = vec![Vector::z(); faces.len()];
+        paint(&samples, &colours, &normals, &vec![0; faces.len()], &view)
     }
 
     #[test]

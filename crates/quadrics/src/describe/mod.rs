@@ -61,7 +61,7 @@ pub fn describe(
     out: &Similarity,
 ) -> Described {
     let regions = Regions::new(labels);
-    let neighbours = neighbours(labels, &scene.adjacency, regions.len());
+    let neighbours = neighbours(labels, scene.adjacency, regions.len());
     let mut described = Described::default();
     let mut angles = Vec::new();
     let rows: Vec<_> = found

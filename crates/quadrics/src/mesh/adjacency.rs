@@ -1,6 +1,6 @@
 //! Which faces share an edge, and which share a vertex. By sorting, not by hashing.
 
-use rayon::slice::ParallelSliceMut;
+use super::edges::for_each_edge;
 
 /// Marks an edge without a neighbour: a border, or an edge that is not manifold.
 pub const NONE: u32 = u32::MAX;
@@ -19,7 +19,7 @@ impl Adjacency {
     /// Adjacency of `faces` over `vertices` vertices. Edges of more than two faces have no neighbours.
     pub fn new(faces: &[[u32; 3]], vertices: usize) -> Self {
         let (offsets, incident) = faces_around_vertices(faces, vertices);
-        Self { neighbours: face_neighbours(faces), offsets, incident }
+        Self { neighbours: face_neighbours(faces, vertices), offsets, incident }
     }
 
     /// The faces at a vertex, in ascending order.
@@ -34,23 +34,14 @@ impl Adjacency {
     }
 }
 
-fn face_neighbours(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
-    // Edge key in the high bits, half-edge in the low ones: equal edges become neighbours in the order.
-    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * faces.len());
-    for (face, corners) in faces.iter().enumerate() {
-        for i in 0..3 {
-            let (a, b) = (corners[i], corners[(i + 1) % 3]);
-            edges.push((u64::from(a.min(b)) << 32 | u64::from(a.max(b)), (3 * face + i) as u32));
-        }
-    }
-    edges.par_sort_unstable();
+fn face_neighbours(faces: &[[u32; 3]], vertices: usize) -> Vec<[u32; 3]> {
     let mut neighbours = vec![[NONE; 3]; faces.len()];
-    for same in edges.chunk_by(|one, other| one.0 == other.0) {
-        if let &[(_, one), (_, other)] = same {
+    for_each_edge(faces, vertices, |edge| {
+        if let &[one, other] = edge {
             neighbours[one as usize / 3][one as usize % 3] = other / 3;
             neighbours[other as usize / 3][other as usize % 3] = one / 3;
         }
-    }
+    });
     neighbours
 }
 

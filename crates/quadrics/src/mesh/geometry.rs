@@ -19,7 +19,7 @@ pub struct Geometry {
 impl Geometry {
     /// Computes all of it in one parallel pass.
     pub fn new(mesh: &Mesh) -> Self {
-        let rows: Vec<_> = (0..mesh.faces.len())
+        let (barycentres, (normals, areas)) = (0..mesh.faces.len())
             .into_par_iter()
             .with_min_len(1024)
             .map(|face| {
@@ -27,15 +27,10 @@ impl Geometry {
                 let cross = (b - a).cross(&(c - a));
                 let length = cross.norm();
                 let normal = if length > 0.0 { cross / length } else { Vector::zeros() };
-                (Point::from((a.coords + b.coords + c.coords) / 3.0), normal, length / 2.0)
+                let barycentre = Point::from((a.coords + b.coords + c.coords) / 3.0);
+                (barycentre, (normal, length / 2.0))
             })
-            .collect();
-        let mut geometry = Self::default();
-        for (barycentre, normal, area) in rows {
-            geometry.barycentres.push(barycentre);
-            geometry.normals.push(normal);
-            geometry.areas.push(area);
-        }
-        geometry
+            .unzip();
+        Self { barycentres, normals, areas }
     }
 }

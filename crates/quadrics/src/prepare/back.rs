@@ -31,10 +31,16 @@ pub fn labels_back(
     normals: &[Vector],
     input_areas: &[f64],
 ) -> Returned {
-    let shares = shares(labels, parents, areas);
-    let mut back = majority(&shares, input_areas.len());
     let regions = region_count(labels);
-    let vanishing = keep_vanishing(&mut back, &shares, regions);
+    let whole = parents.iter().zip(0..).all(|(&parent, face)| parent == face);
+    let (mut back, vanishing) = if whole && parents.len() == input_areas.len() {
+        (labels.to_vec(), 0)
+    } else {
+        let shares = shares(labels, parents, areas);
+        let mut back = majority(&shares, input_areas.len());
+        let vanishing = keep_vanishing(&mut back, &shares, regions);
+        (back, vanishing)
+    };
     let whole = back.clone();
     drop_fragments(&mut back, adjacency, input_areas);
     let reassigned = hand_out(&mut back, adjacency, normals);

@@ -2,6 +2,7 @@
 
 mod axes;
 mod back;
+mod coarsen;
 pub mod noise;
 pub mod normals;
 mod order;
@@ -10,6 +11,7 @@ mod unit_cube;
 
 pub use axes::{Placed, in_own_cube, in_unit_cube};
 pub use back::{Returned, labels_back};
+pub use coarsen::{Coarse, coarsen, is_faceted};
 pub use order::{Ordered, ordered};
 pub use subdivide::{Subdivided, subdivide};
 pub use unit_cube::to_unit_cube;

@@ -18,24 +18,30 @@ pub struct Rings {
 impl Rings {
     /// Gathers the ring of every face.
     pub fn new(mesh: &Mesh, adjacency: &Adjacency) -> Self {
-        let rings: Vec<Vec<u32>> = (0..mesh.faces.len())
+        let count = mesh.faces.len();
+        // Chunks of faces, so that no list is made for a single one.
+        let chunks: Vec<(Vec<u32>, Vec<u32>)> = (0..count.div_ceil(CHUNK))
             .into_par_iter()
-            .with_min_len(1024)
-            .map(|face| {
-                let mut ring = vec![face as u32];
-                for &vertex in &mesh.faces[face] {
-                    ring.extend(adjacency.around(vertex).iter().filter(|&&f| f != face as u32));
+            .map(|chunk| {
+                let (mut sizes, mut faces) = (Vec::with_capacity(CHUNK), Vec::new());
+                for face in chunk * CHUNK..count.min((chunk + 1) * CHUNK) {
+                    let from = faces.len();
+                    append(mesh, adjacency, face, &mut faces);
+                    sizes.push((faces.len() - from) as u32);
                 }
-                ring[1..].sort_unstable();
-                ring.dedup();
-                ring
+                (sizes, faces)
             })
             .collect();
-        let mut offsets = vec![0];
-        let mut faces = Vec::with_capacity(rings.iter().map(Vec::len).sum());
-        for ring in rings {
+        let mut offsets = Vec::with_capacity(count + 1);
+        let mut faces = Vec::with_capacity(chunks.iter().map(|chunk| chunk.1.len()).sum());
+        let mut end = 0;
+        offsets.push(0);
+        for (sizes, ring) in chunks {
             faces.extend(ring);
-            offsets.push(faces.len() as u32);
+            for size in sizes {
+                end += size;
+                offsets.push(end);
+            }
         }
         Self { offsets, faces }
     }
@@ -44,6 +50,27 @@ impl Rings {
     pub fn of(&self, face: usize) -> &[u32] {
         &self.faces[self.offsets[face] as usize..self.offsets[face + 1] as usize]
     }
+}
+
+/// Faces whose rings are gathered together.
+const CHUNK: usize = 4096;
+
+/// Appends a face, then those that share a vertex with it, ascending.
+fn append(mesh: &Mesh, adjacency: &Adjacency, face: usize, ring: &mut Vec<u32>) {
+    ring.push(face as u32);
+    let from = ring.len();
+    for &vertex in &mesh.faces[face] {
+        ring.extend(adjacency.around(vertex).iter().filter(|&&f| f != face as u32));
+    }
+    ring[from..].sort_unstable();
+    let mut last = from;
+    for i in from + 1..ring.len() {
+        if ring[i] != ring[last] {
+            last += 1;
+            ring[last] = ring[i];
+        }
+    }
+    ring.truncate(ring.len().min(last + 1));
 }
 
 /// Filters the face normals `rounds` times; normals further apart than about `reach` (radians) do

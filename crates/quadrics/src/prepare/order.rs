@@ -28,9 +28,12 @@ pub fn ordered(mesh: &Mesh) -> Ordered {
         mesh.positions.iter().zip(0..).map(|(p, i)| (key(*p), i)).collect();
     let place = |i: u32| mesh.positions[i as usize].coords;
     vertices.par_sort_unstable_by(|a, b| {
-        let (p, q) = (place(a.1), place(b.1));
-        let exact = p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z));
-        a.0.cmp(&b.0).then(exact).then(a.1.cmp(&b.1))
+        // Positions, somewhere in memory, are looked up only where they decide.
+        let exact = || {
+            let (p, q) = (place(a.1), place(b.1));
+            p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z))
+        };
+        a.0.cmp(&b.0).then_with(exact).then(a.1.cmp(&b.1))
     });
     let mut number = vec![0; mesh.positions.len()];
     for (new, &(_, old)) in vertices.iter().enumerate() {

@@ -4,6 +4,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use rayon::prelude::*;
+
 use super::cut::Cut;
 use super::scene::{Marks, Scene};
 use crate::partition::{UNLABELLED, components};
@@ -81,7 +83,8 @@ pub fn flood(scene: &Scene, models: &[Model], labels: &mut [u32]) {
 /// Lets every surface in turn take the faces that lower the energy.
 pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
     let mut current: Vec<f64> = labels
-        .iter()
+        .par_iter()
+        .with_min_len(4096)
         .enumerate()
         .map(|(face, &label)| face_cost(scene, &models[label as usize], face))
         .collect();
@@ -199,7 +202,7 @@ pub fn connect(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
             break;
         }
     }
-    let (component, sizes) = components(labels, &scene.adjacency);
+    let (component, sizes) = components(labels, scene.adjacency);
     let largest = largest_pieces(labels, &component, &sizes, models.len());
     let mut own: Vec<u32> = vec![UNLABELLED; sizes.len()];
     for face in 0..labels.len() {
@@ -208,7 +211,7 @@ pub fn connect(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
         if component[face] == largest[label as usize] {
             continue;
         }
-        if own[piece] == UNLABELLED && sizes[piece] >= PIECE {
+        if own[piece] == UNLABELLED && sizes[piece] >= PIECE * scene.grain {
             own[piece] = models.len() as u32;
             models.push(models[label as usize].clone());
         }
@@ -223,7 +226,7 @@ pub fn name_the_rest(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32])
     if !labels.contains(&UNLABELLED) {
         return;
     }
-    let (component, sizes) = components(labels, &scene.adjacency);
+    let (component, sizes) = components(labels, scene.adjacency);
     let mut own: Vec<u32> = vec![UNLABELLED; sizes.len()];
     for face in (0..labels.len()).filter(|&f| labels[f] == UNLABELLED).collect::<Vec<_>>() {
         let name = &mut own[component[face] as usize];
@@ -250,11 +253,13 @@ fn largest_pieces(labels: &[u32], component: &[u32], sizes: &[u32], count: usize
 /// Bridges small gaps between the pieces of a region over faces that its surface nearly explains.
 /// Whether any was bridged.
 fn mend(scene: &Scene, models: &[Model], labels: &mut [u32]) -> bool {
-    let (component, sizes) = components(labels, &scene.adjacency);
+    let (component, sizes) = components(labels, scene.adjacency);
     let largest = largest_pieces(labels, &component, &sizes, models.len());
     let mut starts: Vec<Vec<u32>> = vec![Vec::new(); sizes.len()];
     for (face, &label) in labels.iter().enumerate() {
-        if component[face] != largest[label as usize] && sizes[component[face] as usize] >= CRUMB {
+        if component[face] != largest[label as usize]
+            && sizes[component[face] as usize] >= CRUMB * scene.grain
+        {
             starts[component[face] as usize].push(face as u32);
         }
     }

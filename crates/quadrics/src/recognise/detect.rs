@@ -17,7 +17,7 @@ const SHOWS: usize = 70;
 /// Seeds that compete for being accepted first.
 const BATCH: usize = 12;
 /// Adjacent faces whose normals differ more are not in one neighbourhood, in radians.
-const CREASE: f64 = 0.6;
+pub const CREASE: f64 = 0.6;
 /// Faces within so many sigmas belong to a growing region. Waviness and rounded edges make the
 /// residuals of a scan heavy-tailed: less cuts its regions to pieces.
 const REACH: f64 = 2.5;
@@ -25,7 +25,7 @@ const REACH_SCAN: f64 = 4.0;
 /// Vertices that a fit looks at while growing.
 const SAMPLES: usize = 120;
 /// Fewest faces of a region.
-const FEWEST: usize = 10;
+pub const FEWEST: usize = 10;
 /// Most refits of a growing region.
 const REFITS: usize = 8;
 
@@ -68,23 +68,40 @@ pub fn detect(
     share: f64,
 ) -> Result<Option<(Labels, Vec<Candidate>)>> {
     let mut labels = vec![UNLABELLED; scene.mesh.faces.len()];
+    let found = explain(context, scene, &mut labels, 0, share)?;
+    Ok(found.map(|found| (labels, found)))
+}
+
+/// The same for the faces that have no label yet; labels of what is found count from `first`.
+///
+/// # Errors
+/// Cancellation.
+pub fn explain(
+    context: &mut Context,
+    scene: &Scene,
+    labels: &mut [u32],
+    first: u32,
+    share: f64,
+) -> Result<Option<Vec<Candidate>>> {
     let mut found: Vec<Candidate> = Vec::new();
     let mut work = Workspace::default();
-    let mut open: Vec<u32> = (0..labels.len() as u32).collect();
+    let mut open: Vec<u32> =
+        (0..labels.len() as u32).filter(|&f| labels[f as usize] == UNLABELLED).collect();
     let mut dead = vec![false; labels.len()];
+    let mut buried: Vec<u32> = Vec::new();
     let total = open.len().max(1) as f64;
     loop {
         open.retain(|&f| labels[f as usize] == UNLABELLED && !dead[f as usize]);
         if open.is_empty() {
-            return Ok(Some((labels, found)));
+            return Ok(Some(found));
         }
         context.step("detect", 1.0 - open.len() as f64 / total)?;
         let mut batch = Vec::new();
         for _ in 0..BATCH {
             let seed = open[context.rng.random_range(0..open.len())];
-            match propose(scene, seed, &labels, &mut work) {
+            match propose(scene, seed, labels, &mut work) {
                 Some(candidate) if candidate.faces.len() >= FEWEST => batch.push(candidate),
-                _ => bury(scene, seed, &mut dead),
+                _ => bury(scene, seed, &mut dead, &mut buried),
             }
         }
         batch.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
@@ -92,22 +109,25 @@ pub fn detect(
             let before = candidate.faces.len();
             candidate.faces.retain(|&f| labels[f as usize] == UNLABELLED);
             if candidate.faces.len() * 10 >= before * 9 {
-                let id = found.len() as u32;
+                let id = first + found.len() as u32;
                 candidate.faces.iter().for_each(|&f| labels[f as usize] = id);
                 found.push(candidate);
             }
         }
-        let lost = (0..labels.len()).filter(|&f| dead[f] && labels[f] == UNLABELLED).count();
-        if lost as f64 > share * total {
+        buried.retain(|&f| labels[f as usize] == UNLABELLED);
+        if buried.len() as f64 > share * total {
             return Ok(None);
         }
     }
 }
 
 /// A seed that led nowhere is not tried again, nor are the faces beside it.
-fn bury(scene: &Scene, seed: u32, dead: &mut [bool]) {
-    dead[seed as usize] = true;
-    scene.adjacency.across(seed as usize).for_each(|f| dead[f] = true);
+fn bury(scene: &Scene, seed: u32, dead: &mut [bool], buried: &mut Vec<u32>) {
+    for face in std::iter::once(seed as usize).chain(scene.adjacency.across(seed as usize)) {
+        if !std::mem::replace(&mut dead[face], true) {
+            buried.push(face as u32);
+        }
+    }
 }
 
 /// What grows from the neighbourhoods of a seed, the worthiest of all types.

@@ -10,7 +10,8 @@ use super::detect::{Candidate, Workspace, propose};
 use super::scene::{ROUNDING, Scene};
 use crate::context::Context;
 use crate::error::Result;
-use crate::partition::UNLABELLED;
+use crate::math::Point;
+use crate::partition::{Regions, UNLABELLED};
 use crate::surface::Surface;
 use crate::surface::select::Evidence;
 
@@ -81,6 +82,60 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
         coarsen(context, scene)?;
     }
     Ok(())
+}
+
+/// Faces of a region that are asked how they err.
+const HEARD: usize = 2000;
+/// From the median absolute deviation to the standard deviation.
+const MEDIAN: f64 = 1.4826;
+/// Residuals beyond so many sigmas are not of the region.
+const REACH: f64 = 2.5;
+
+/// Distance from its surface that this share of the vertices of each region keep; none of a small one.
+pub fn distances(scene: &Scene, surfaces: &[Surface], labels: &[u32], share: f64) -> Vec<f64> {
+    let regions = Regions::new(labels);
+    let of_region = |(faces, surface): (&[u32], &Surface)| {
+        if faces.len() < FEWEST || matches!(surface, Surface::FreeForm) {
+            return 0.0;
+        }
+        let corner = |face: &u32| scene.mesh.corners(*face as usize)[0];
+        let heard = faces.iter().step_by((faces.len() / HEARD).max(1));
+        let mut distances: Vec<f64> = heard.map(|f| away(surface, corner(f))).collect();
+        let at = (share * distances.len() as f64) as usize;
+        *distances.select_nth_unstable_by(at, f64::total_cmp).1
+    };
+    let pairs: Vec<_> = regions.iter().zip(surfaces).collect();
+    pairs.into_par_iter().map(of_region).collect()
+}
+
+fn away(surface: &Surface, point: Point) -> f64 {
+    surface.distance(point).map_or(f64::INFINITY, f64::abs)
+}
+
+/// The noise of a mesh whose surfaces are known from a coarser one: its sigma, where that of the
+/// coarser one is of means of its vertices, and whether its neighbours err together.
+pub fn carried(scene: &mut Scene, surfaces: &[Surface], labels: &[u32], averaged: bool) {
+    let regions = Regions::new(labels);
+    let deviations = distances(scene, surfaces, labels, 0.5).into_iter().map(|d| MEDIAN * d);
+    let hear = |((faces, surface), sigma): ((&[u32], &Surface), f64)| {
+        let near = |face: &u32| {
+            let corners = scene.mesh.corners(*face as usize);
+            corners.iter().all(|p| away(surface, *p) <= REACH * sigma)
+        };
+        let heard = faces.iter().step_by((faces.len() / HEARD).max(1));
+        let heard: Vec<u32> = heard.copied().filter(near).collect();
+        (heard.len() >= FEWEST).then(|| Row { sigma, ..scatter(scene, surface, &heard) })
+    };
+    let all: Vec<_> = regions.iter().zip(surfaces).zip(deviations).collect();
+    let known = all.into_par_iter().filter(|row| row.1 > 0.0);
+    let mut rows: Vec<Row> = known.filter_map(hear).collect();
+    let sigma = quantile(&mut rows, |row| row.sigma).max(ROUNDING);
+    if averaged && !rows.is_empty() {
+        scene.evidence.sigma = sigma;
+    }
+    if sigma > 2.0 * ROUNDING && quantile(&mut rows, |row| row.correlation) > CORRELATED {
+        scene.evidence.independent = INDEPENDENT;
+    }
 }
 
 /// How much coarser the next scale is.

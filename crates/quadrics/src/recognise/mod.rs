@@ -1,6 +1,7 @@
 //! `preset="default"`: the surfaces of a part, whatever its noise, with nothing to tune.
 
 pub mod assign;
+pub mod carry;
 pub mod count;
 mod cut;
 pub mod detect;
@@ -13,10 +14,8 @@ pub mod scene;
 use crate::context::Context;
 use crate::error::Result;
 use crate::math::{Point, Vector};
-use crate::mesh::Mesh;
 use crate::options::Options;
 use crate::partition::{Labels, UNLABELLED, components, region_count};
-use crate::surface::select::Evidence;
 use crate::surface::{Plane, Surface};
 use assign::Model;
 use detect::Candidate;
@@ -28,52 +27,50 @@ pub struct Outcome {
     pub labels: Labels,
     /// Surface of every region, in the frame of the mesh.
     pub surfaces: Vec<Surface>,
-    /// Noise, in the unit of the mesh.
-    pub evidence: Evidence,
     /// Mean cost of a face after every round, in nats.
     pub energy: Vec<f64>,
 }
 
-/// Recognises the surfaces of a mesh that lies in the unit cube.
+/// Recognises the surfaces of a mesh that lies in the unit cube, and learns its noise.
 ///
 /// # Errors
 /// Cancellation.
 pub fn recognise(
     context: &mut Context,
-    mesh: &Mesh,
+    scene: &mut Scene,
     options: &Options,
     initial_labels: Option<&[u32]>,
 ) -> Result<Outcome> {
-    let mut scene = context.timed("prepare", |_| Ok(Scene::new(mesh)))?;
-    context.timed("noise", |context| evidence::measure(context, &mut scene))?;
+    context.timed("noise", |context| evidence::measure(context, scene))?;
     let (mut labels, mut models) = match initial_labels {
-        Some(labels) => given(&scene, labels),
-        None => start(context, &mut scene)?,
+        Some(labels) => given(scene, labels),
+        None => start(context, scene)?,
     };
+    let scene = &*scene;
     let mut energies: Vec<f64> = Vec::new();
     for round in 0..ROUNDS {
         context.step("optimise", round as f64 / ROUNDS as f64)?;
         context.timed("assign", |_| {
-            assign::expand(&scene, &models, &mut labels);
-            assign::connect(&scene, &mut models, &mut labels);
+            assign::expand(scene, &models, &mut labels);
+            assign::connect(scene, &mut models, &mut labels);
             moves::tidy(&mut models, &mut labels);
-            moves::drop_needless(&scene, &models, &mut labels);
+            moves::drop_needless(scene, &models, &mut labels);
             moves::tidy(&mut models, &mut labels);
             Ok(())
         })?;
         context.timed("fit", |_| {
-            moves::fit(&scene, &mut models, &labels);
+            moves::fit(scene, &mut models, &labels);
             Ok(())
         })?;
         // Regions that the user gives are not united.
         if initial_labels.is_none() {
             context.timed("merge", |context| {
-                merge::merge(context, &scene, &mut models, &mut labels)?;
-                free_form::unite(&scene, &mut models, &mut labels);
+                merge::merge(context, scene, &mut models, &mut labels)?;
+                free_form::unite(scene, &mut models, &mut labels);
                 Ok(())
             })?;
         }
-        energies.push(energy(&scene, &models, &labels));
+        energies.push(energy(scene, &models, &labels));
         if let [.., before, now] = energies[..]
             && (before - now).abs() <= CONVERGED * before
         {
@@ -82,11 +79,11 @@ pub fn recognise(
     }
     if let Some(goal) = options.regions {
         context.timed("count", |context| {
-            count::reach(context, &scene, &mut models, &mut labels, goal)
+            count::reach(context, scene, &mut models, &mut labels, goal)
         })?;
     }
     let surfaces = models.into_iter().map(|m| m.surface).collect();
-    Ok(Outcome { labels, surfaces, evidence: scene.evidence, energy: energies })
+    Ok(Outcome { labels, surfaces, energy: energies })
 }
 
 /// The loop ends when the energy changes by less than this fraction.
@@ -134,7 +131,7 @@ fn start(context: &mut Context, scene: &mut Scene) -> Result<(Labels, Vec<Model>
 fn hand_out(scene: &Scene, mut labels: Labels, found: Vec<Candidate>) -> (Labels, Vec<Model>) {
     let mut models: Vec<Model> =
         found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }).collect();
-    let (component, sizes) = components(&labels, &scene.adjacency);
+    let (component, sizes) = components(&labels, scene.adjacency);
     let mut own = vec![UNLABELLED; sizes.len()];
     for face in 0..labels.len() {
         let piece = component[face] as usize;

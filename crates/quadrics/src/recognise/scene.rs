@@ -1,7 +1,9 @@
 //! What the recognition looks at: a mesh in the unit cube, its neighbourhoods, its noise.
 
+use std::borrow::Cow;
+
 use crate::math::{Point, Vector};
-use crate::mesh::{Adjacency, Geometry, Mesh};
+use crate::mesh::{Adjacency, Geometry, Mesh, Working};
 use crate::prepare::{noise, normals};
 use crate::surface::Shape;
 use crate::surface::select::Evidence;
@@ -11,15 +13,17 @@ pub struct Scene<'a> {
     /// Positions and faces.
     pub mesh: &'a Mesh,
     /// Areas, raw normals, barycentres.
-    pub geometry: Geometry,
+    pub geometry: &'a Geometry,
     /// Neighbours.
-    pub adjacency: Adjacency,
+    pub adjacency: &'a Adjacency,
     /// Face normals, filtered as far as the noise asks.
-    pub normals: Vec<Vector>,
+    pub normals: Cow<'a, [Vector]>,
     /// Noise of the vertices.
     pub evidence: Evidence,
     /// Mean edge length.
     pub edge: f64,
+    /// Faces for one of the mesh that surfaces are sought on: 1 where it is this one.
+    pub grain: u32,
 }
 
 /// Rounding of the input's coordinates, in sizes: no sigma is smaller. Files carry five to seven
@@ -31,26 +35,37 @@ const QUIET: f64 = 0.03;
 pub const NORMAL_FLOOR: f64 = 0.04;
 
 impl<'a> Scene<'a> {
-    /// Looks at a mesh.
-    pub fn new(mesh: &'a Mesh) -> Self {
-        let geometry = Geometry::new(mesh);
-        let adjacency = Adjacency::new(&mesh.faces, mesh.positions.len());
-        let sigma = noise::position(mesh, &adjacency).max(ROUNDING);
+    /// Looks at a mesh, and filters its normals as far as the noise asks.
+    pub fn new(working: &'a Working) -> Self {
+        let mut scene = Self::raw(working);
+        scene.filter();
+        scene
+    }
+
+    /// Looks at a mesh and leaves its normals as they are.
+    pub fn raw(working: &'a Working) -> Self {
+        let Working { mesh, geometry, adjacency } = working;
+        let sigma = noise::position(mesh, adjacency).max(ROUNDING);
         let area = geometry.areas.iter().sum::<f64>() / geometry.areas.len().max(1) as f64;
         // The edge of an equilateral triangle of mean area.
         let edge = (area * 4.0 / 3f64.sqrt()).sqrt();
+        let evidence =
+            Evidence { sigma, independent: 1.0, normal_sigma: NORMAL_FLOOR, general: true };
+        let normals = Cow::Borrowed(&geometry.normals[..]);
+        Self { mesh, geometry, adjacency, normals, evidence, edge, grain: 1 }
+    }
+
+    /// Filters the normals as far as the noise asks.
+    pub fn filter(&mut self) {
         // A normal errs by about twice the noise over the edge.
-        let raw = 2.0 * sigma / edge;
-        let (filtered, normal_sigma) = if raw < QUIET {
-            (geometry.normals.clone(), NORMAL_FLOOR)
-        } else {
+        let raw = 2.0 * self.evidence.sigma / self.edge;
+        if raw >= QUIET {
             let rounds = (3.0 + 6.0 * raw).round().min(10.0) as usize;
-            let rings = normals::Rings::new(mesh, &adjacency);
+            let rings = normals::Rings::new(self.mesh, self.adjacency);
             let reach = 0.2 + 0.55 * raw;
-            (normals::filter(&geometry, &rings, rounds, reach), NORMAL_FLOOR + 0.2 * raw)
-        };
-        let evidence = Evidence { sigma, independent: 1.0, normal_sigma, general: true };
-        Self { mesh, geometry, adjacency, normals: filtered, evidence, edge }
+            self.normals = Cow::Owned(normals::filter(self.geometry, &rings, rounds, reach));
+            self.evidence.normal_sigma = NORMAL_FLOOR + 0.2 * raw;
+        }
     }
 
     /// Squared distance of a face's corners from a surface, their mean.
