@@ -62,7 +62,7 @@ fn run(
         former.iter().map(|&old| found.surfaces[old as usize].clone()).collect();
     let mut fits =
         context.timed("describe", |context| fit_all(context, &scene, &on_clean, &surfaces))?;
-    let beside = neighbours(&on_clean, &scene.adjacency, fits.len());
+    let beside = neighbours(&on_clean, scene.adjacency, fits.len());
     let (relations, dimensions) = match demands {
         Some(demands) => {
             context.timed("constrain", |_| impose(&mut fits, &beside, demands, &out))?

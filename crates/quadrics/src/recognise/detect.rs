@@ -2,6 +2,7 @@
 
 use rand::RngExt;
 
+use super::assign::{Model, face_cost};
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
@@ -26,6 +27,10 @@ const REACH_SCAN: f64 = 4.0;
 const SAMPLES: usize = 120;
 /// Fewest faces of a region.
 pub const FEWEST: usize = 10;
+/// What a face costs that no surface explains, in nats (8 is as good).
+const UNEXPLAINED: f64 = 12.0;
+/// A candidate is accepted while this share of what it saved is left by those before it.
+const KEPT: f64 = 0.9;
 /// Most refits of a growing region.
 const REFITS: usize = 8;
 
@@ -41,11 +46,44 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// What the faces save at the `costs` that they have, and the faces that would cost less, with
+    /// their new cost.
+    fn saving(&self, scene: &Scene, costs: &[f64]) -> (f64, Vec<(u32, f64)>) {
+        let model = Model { surface: self.choice.surface.clone(), side: self.side };
+        let mut saved = 0.0;
+        let mut taken = Vec::new();
+        for &face in &self.faces {
+            let (cost, before) = (face_cost(scene, &model, face as usize), costs[face as usize]);
+            if cost < before {
+                saved += before - cost;
+                taken.push((face, cost));
+            }
+        }
+        (saved, taken)
+    }
+
     /// Faces explained for the price of the surface: a torus over several ring bands is worth less
     /// than the largest of them.
     fn worth(&self) -> f64 {
         self.faces.len() as f64 / select::cost(&self.choice.surface)
     }
+
+    /// What the surface costs, in nats, as in the choice of types.
+    fn price(&self) -> f64 {
+        2.0 * select::cost(&self.choice.surface) * (self.faces.len() as f64).ln()
+    }
+}
+
+/// How far a region grows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Growth {
+    /// While only noise is left, and over faces that others explain too: what a neighbour took of
+    /// a tangent surface comes back.
+    Over,
+    /// While only noise is left, not over faces that others explain.
+    Within,
+    /// Past what the noise explains: what is taken in shows how large the noise is.
+    Loose,
 }
 
 /// Scratch sets that are made once.
@@ -85,6 +123,15 @@ pub fn explain(
 ) -> Result<Option<Vec<Candidate>>> {
     let mut found: Vec<Candidate> = Vec::new();
     let mut work = Workspace::default();
+    let cost = |&label: &u32| if label == UNLABELLED { UNEXPLAINED } else { 0.0 };
+    let mut costs: Vec<f64> = labels.iter().map(cost).collect();
+    // What is labelled from the start is not given up, and what is left between is narrow.
+    let bare = labels.iter().all(|&label| label == UNLABELLED);
+    let growth = match (bare, scene.correlated()) {
+        (true, false) => Growth::Over,
+        (true, true) => Growth::Within,
+        (false, _) => Growth::Loose,
+    };
     let mut open: Vec<u32> =
         (0..labels.len() as u32).filter(|&f| labels[f as usize] == UNLABELLED).collect();
     let mut dead = vec![false; labels.len()];
@@ -99,18 +146,31 @@ pub fn explain(
         let mut batch = Vec::new();
         for _ in 0..BATCH {
             let seed = open[context.rng.random_range(0..open.len())];
-            match propose(scene, seed, labels, &mut work) {
-                Some(candidate) if candidate.faces.len() >= FEWEST => batch.push(candidate),
-                _ => bury(scene, seed, &mut dead, &mut buried),
+            let candidate = propose(scene, seed, labels, growth, &mut work)
+                .filter(|candidate| candidate.faces.len() >= FEWEST)
+                .map(|candidate| (candidate.saving(scene, &costs).0, candidate))
+                .filter(|(saved, candidate)| *saved > candidate.price());
+            match candidate {
+                Some((saved, candidate)) => batch.push((saved, seed, candidate)),
+                None => bury(scene, seed, &mut dead, &mut buried),
             }
         }
-        batch.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
-        for mut candidate in batch {
-            let before = candidate.faces.len();
-            candidate.faces.retain(|&f| labels[f as usize] == UNLABELLED);
-            if candidate.faces.len() * 10 >= before * 9 {
+        let worth = |(saved, _, candidate): &(f64, u32, Candidate)| {
+            saved / select::cost(&candidate.choice.surface)
+        };
+        batch.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+        for (before, seed, candidate) in batch {
+            let (saved, taken) = candidate.saving(scene, &costs);
+            if saved >= KEPT * before {
                 let id = first + found.len() as u32;
-                candidate.faces.iter().for_each(|&f| labels[f as usize] = id);
+                for (face, cost) in taken {
+                    labels[face as usize] = id;
+                    costs[face as usize] = cost;
+                }
+                // A seed that its own surface does not explain would be drawn for ever.
+                if labels[seed as usize] == UNLABELLED {
+                    bury(scene, seed, &mut dead, &mut buried);
+                }
                 found.push(candidate);
             }
         }
@@ -135,6 +195,7 @@ pub fn propose(
     scene: &Scene,
     seed: u32,
     labels: &[u32],
+    growth: Growth,
     work: &mut Workspace,
 ) -> Option<Candidate> {
     // For every type the largest neighbourhood that it explains.
@@ -160,9 +221,10 @@ pub fn propose(
         }
     }
     let free = starts.last().cloned();
-    let locked = starts.into_iter().filter_map(|start| grow(scene, start, true, labels, work));
+    let locked =
+        starts.into_iter().filter_map(|start| grow(scene, start, true, labels, growth, work));
     let mut grown: Vec<Candidate> = locked.collect();
-    grown.extend(free.and_then(|start| grow(scene, start, false, labels, work)));
+    grown.extend(free.and_then(|start| grow(scene, start, false, labels, growth, work)));
     grown.into_iter().max_by(|a, b| a.worth().total_cmp(&b.worth()))
 }
 
@@ -212,8 +274,13 @@ const AGAIN: usize = 4;
 
 /// Whether nothing but noise is left: the mean square of `n` residuals scatters by `sqrt(2/n)`.
 fn adequate(choice: &Choice, faces: usize) -> bool {
+    choice.misfit < most_misfit(faces)
+}
+
+/// The largest misfit that noise alone leaves on a region of so many faces.
+pub fn most_misfit(faces: usize) -> f64 {
     let vertices = faces as f64 / 2.0 + 3.0;
-    choice.misfit < 1.2 + 3.0 * (2.0 / vertices).sqrt()
+    1.2 + 3.0 * (2.0 / vertices).sqrt()
 }
 
 /// +1 where the faces' normals agree with the surface's.
@@ -236,26 +303,34 @@ fn grow(
     start: Candidate,
     keep_type: bool,
     labels: &[u32],
+    growth: Growth,
     work: &mut Workspace,
 ) -> Option<Candidate> {
     let mut current = start;
     let mut fitted = current.faces.len();
     for _ in 0..REFITS {
-        let faces = connected_inliers(scene, &current, labels, &mut work.faces);
+        let faces = connected_inliers(scene, &current, labels, growth, &mut work.faces);
         if faces.len() < FEWEST {
             return None;
         }
         let grown = faces.len() as f64 / fitted as f64;
         let shrunk = faces.len() < current.faces.len();
-        current.faces = faces;
+        let before = std::mem::replace(&mut current.faces, faces);
         if !(0.97..1.03).contains(&grown) && !shrunk {
             fitted = current.faces.len();
+            let strict = growth != Growth::Loose;
             let choice = if keep_type {
                 fit_again(scene, &current, work)
             } else {
-                fit(scene, &current.faces, work).into_iter().next()
+                let best = fit(scene, &current.faces, work).into_iter().next();
+                best.filter(|choice| !strict || adequate(choice, current.faces.len()))
             };
-            let Some(choice) = choice else { break };
+            let Some(choice) = choice else {
+                if strict {
+                    current.faces = before;
+                }
+                break;
+            };
             current.side = side_of(scene, &choice.surface, &current.faces);
             current.choice = choice;
         } else {
@@ -270,15 +345,16 @@ fn connected_inliers(
     scene: &Scene,
     candidate: &Candidate,
     labels: &[u32],
+    growth: Growth,
     seen: &mut Marks,
 ) -> Vec<u32> {
     match &candidate.choice.surface {
-        Surface::Plane(s) => inliers_of(scene, s, candidate, labels, seen),
-        Surface::Sphere(s) => inliers_of(scene, s, candidate, labels, seen),
-        Surface::Cylinder(s) => inliers_of(scene, s, candidate, labels, seen),
-        Surface::Cone(s) => inliers_of(scene, s, candidate, labels, seen),
-        Surface::Torus(s) => inliers_of(scene, s, candidate, labels, seen),
-        Surface::Quadric(s) => inliers_of(scene, s, candidate, labels, seen),
+        Surface::Plane(s) => inliers_of(scene, s, candidate, labels, growth, seen),
+        Surface::Sphere(s) => inliers_of(scene, s, candidate, labels, growth, seen),
+        Surface::Cylinder(s) => inliers_of(scene, s, candidate, labels, growth, seen),
+        Surface::Cone(s) => inliers_of(scene, s, candidate, labels, growth, seen),
+        Surface::Torus(s) => inliers_of(scene, s, candidate, labels, growth, seen),
+        Surface::Quadric(s) => inliers_of(scene, s, candidate, labels, growth, seen),
         Surface::FreeForm => Vec::new(),
     }
 }
@@ -288,13 +364,14 @@ fn inliers_of<S: Shape>(
     shape: &S,
     candidate: &Candidate,
     labels: &[u32],
+    growth: Growth,
     seen: &mut Marks,
 ) -> Vec<u32> {
     let reach = if scene.correlated() { REACH_SCAN } else { REACH };
     let near = (reach * scene.evidence.sigma).powi(2);
     let turn = (REACH * scene.evidence.normal_sigma).max(0.2).powi(2);
     let explains = |face: usize| {
-        labels[face] == UNLABELLED
+        (growth == Growth::Over || labels[face] == UNLABELLED)
             && scene.squared_distance(shape, face) < near
             && scene.normal_deviation(shape, face, candidate.side) < turn
     };

@@ -43,8 +43,12 @@ const FINAL_ITERATIONS: usize = 25;
 const LARGEST_RADIUS: f64 = 5.0;
 /// Half angles outside this range, in degrees, are cylinders or planes.
 const HALF_ANGLES: (f64, f64) = (0.3, 88.0);
-/// Least mean cosine between the normals of the samples and of the surface.
-const ONE_SIDED: f64 = 0.85;
+/// Least mean cosine between the normals of the samples and of the surface on a clean mesh: many
+/// surfaces fit the two rows of vertices of a narrow strip.
+const AGREEMENT: f64 = 0.85;
+/// Least share by which the normals on one side outnumber the others. On narrow bands filtered
+/// normals turn by any angle; only surfaces that run through the cloud must go.
+const ONE_SIDED: f64 = 0.3;
 /// Part of the noise that is expected to remain whatever is fitted.
 const LEAST_MISFIT: f64 = 0.6;
 
@@ -94,7 +98,7 @@ pub fn judge(surface: Surface, samples: Samples, vertices: usize, evidence: Evid
 pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choice> {
     let mut choices: Vec<Choice> = Vec::new();
     let consider = |choices: &mut Vec<Choice>, surface: Surface| {
-        if plausible(&surface, samples) {
+        if plausible(&surface, samples, evidence) {
             let choice = judge(surface, samples, vertices, evidence);
             insert(choices, choice);
         }
@@ -181,7 +185,7 @@ fn best_of(starts: impl Iterator<Item = Surface>, samples: Samples) -> Option<Su
 }
 
 /// Whether a surface is of sensible size and seen from one side.
-fn plausible(surface: &Surface, samples: Samples) -> bool {
+fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> bool {
     let sensible = match surface {
         Surface::Sphere(s) => s.radius < LARGEST_RADIUS,
         Surface::Cylinder(s) => s.radius < LARGEST_RADIUS,
@@ -195,13 +199,17 @@ fn plausible(surface: &Surface, samples: Samples) -> bool {
         }
         _ => true,
     };
-    sensible && one_sided(surface, samples)
+    sensible && one_sided(surface, samples, evidence)
 }
 
 /// Whether the samples' normals agree with the surface's, up to one sign: a tube as thin as the
 /// noise runs through the cloud with both its sides.
-fn one_sided(surface: &Surface, samples: Samples) -> bool {
+fn one_sided(surface: &Surface, samples: Samples, evidence: Evidence) -> bool {
     let cosine = |(p, n): (&Point, &Vector)| surface.normal(*p).map_or(0.0, |m| m.dot(n));
-    let sum: f64 = samples.barycentres.iter().zip(samples.normals).map(cosine).sum();
-    sum.abs() > ONE_SIDED * samples.points.len() as f64
+    let cosines = samples.barycentres.iter().zip(samples.normals).map(cosine);
+    let count = samples.points.len() as f64;
+    if evidence.general {
+        return cosines.sum::<f64>().abs() > AGREEMENT * count;
+    }
+    cosines.map(f64::signum).sum::<f64>().abs() > ONE_SIDED * count
 }
