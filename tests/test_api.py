@@ -285,7 +285,6 @@ def test_relations_hold_to_rounding_and_can_be_left_out() -> None:
     assert quadrics.segment(part.mesh, seed=0, constraints=False).relations == ()
 
 
-@pytest.mark.xfail(reason="the coarse path leaves crumbs along borders: F1 0.70, HD 0.004")
 def test_a_coarser_mesh_leads_to_the_same_regions() -> None:
     part = quadrics.synth.part("shaft", 60_000)
     coarse = quadrics.segment(part.mesh, coarse="on")

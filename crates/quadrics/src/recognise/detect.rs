@@ -125,13 +125,10 @@ pub fn explain(
     let mut work = Workspace::default();
     let cost = |&label: &u32| if label == UNLABELLED { UNEXPLAINED } else { 0.0 };
     let mut costs: Vec<f64> = labels.iter().map(cost).collect();
-    // What is labelled from the start is not given up, and what is left between is narrow.
+    // On a clean mesh neighbours take nothing that is not theirs; what is labelled from the start stays.
     let bare = labels.iter().all(|&label| label == UNLABELLED);
-    let growth = match (bare, scene.correlated()) {
-        (true, false) => Growth::Over,
-        (true, true) => Growth::Within,
-        (false, _) => Growth::Loose,
-    };
+    let independent = !scene.evidence.general && !scene.correlated();
+    let growth = if bare && independent { Growth::Over } else { Growth::Within };
     let mut open: Vec<u32> =
         (0..labels.len() as u32).filter(|&f| labels[f as usize] == UNLABELLED).collect();
     let mut dead = vec![false; labels.len()];
