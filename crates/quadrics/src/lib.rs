@@ -5,6 +5,7 @@
 pub mod baseline;
 pub mod constrain;
 pub mod context;
+mod default;
 pub mod denoise;
 pub mod describe;
 pub mod detect;

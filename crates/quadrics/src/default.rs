@@ -1,0 +1,185 @@
+//! `preset="default"`: on the mesh itself, on a finer one where it has few faces, on a coarser one
+//! where its own faces hide the surfaces.
+
+use crate::context::Context;
+use crate::describe::fit_all;
+use crate::error::Result;
+use crate::impose::equalise;
+use crate::mesh::Working;
+use crate::options::{self, Options};
+use crate::partition::{Labels, Regions, separate};
+use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, subdivide};
+use crate::recognise::assign::{self, Model};
+use crate::recognise::detect::side_of;
+use crate::recognise::{self, Outcome, carry, evidence, moves, scene::Scene};
+use crate::surface::Surface;
+use crate::surface::select::Evidence;
+
+/// A mesh in its cube, and what is asked of it.
+#[derive(Clone, Copy)]
+pub struct Task<'a> {
+    pub cube: &'a Working,
+    pub options: &'a Options,
+    /// Labels to begin with, one a face, numbered from 0.
+    pub start: Option<&'a [u32]>,
+}
+
+/// A mesh of fewer faces is cut into more before surfaces are sought: neighbourhoods need some.
+const FEW_FACES: usize = 3000;
+/// A piece of a region that lies apart is a region of its own from so many faces on.
+const PIECE: u32 = 40;
+
+/// Recognises the surfaces of a mesh; `scene` is that of its faces, and learns the noise.
+///
+/// # Errors
+/// Cancellation, or a mesh that cannot be cut.
+pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
+    let Task { cube, options, start } = task;
+    if cube.len() < FEW_FACES {
+        return subdivided(context, scene, task);
+    }
+    if context.timed("prepare", |_| Ok(is_too_fine(cube, scene, options.coarse)))? {
+        return coarsened(context, scene, task);
+    }
+    context.timed("prepare", |_| {
+        scene.filter();
+        Ok(())
+    })?;
+    let outcome = recognise::recognise(context, scene, options, start)?;
+    let parents: Vec<u32> = (0..cube.len() as u32).collect();
+    let mut found = context.timed("back", |_| Ok(back(outcome, cube, &parents, scene)))?;
+    // On scans surfaces that hold still tear regions; a number that was asked for stays.
+    if options.constraints.is_some() && !scene.correlated() && options.regions.is_none() {
+        regroup(context, scene, &mut found)?;
+    }
+    Ok(found)
+}
+
+/// On a finer mesh.
+fn subdivided(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
+    let Task { cube, options, start } = task;
+    let fine = context.timed("subdivide", |_| subdivide(cube.mesh.clone(), options.max_edge))?;
+    let working = Working::new(fine.mesh);
+    let mut finer = context.timed("prepare", |_| {
+        scene.filter();
+        Ok(Scene::new(&working))
+    })?;
+    let start: Option<Labels> =
+        start.map(|labels| fine.parents.iter().map(|&face| labels[face as usize]).collect());
+    let outcome = recognise::recognise(context, &mut finer, options, start.as_deref())?;
+    scene.evidence = finer.evidence;
+    context.timed("back", |_| Ok(back(outcome, &working, &fine.parents, scene)))
+}
+
+/// Faces of the coarser mesh, and how many there must be for each; from how many on it always pays.
+const COARSE_FACES: usize = 50_000;
+const FACES_FOR_ONE: usize = 2;
+const VERY_LARGE: usize = 2_000_000;
+/// Where sigma is above this share of an edge, faces say less of the surfaces than a coarser mesh.
+const NOISY: f64 = 1.0 / 3.0;
+
+/// Whether surfaces are better sought on a coarser mesh.
+fn is_too_fine(cube: &Working, scene: &Scene, choice: options::Coarse) -> bool {
+    let count = cube.len();
+    match choice {
+        options::Coarse::Off => false,
+        options::Coarse::On => true,
+        options::Coarse::Auto if count < FACES_FOR_ONE * COARSE_FACES => false,
+        options::Coarse::Auto => {
+            count >= VERY_LARGE || scene.evidence.sigma > NOISY * scene.edge || is_faceted(cube)
+        }
+    }
+}
+
+/// On a coarser mesh; then the faces choose among its surfaces.
+fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
+    let Task { cube, options, start } = task;
+    let noise = scene.evidence.sigma / scene.edge;
+    let Coarse { mesh, site, origin, averaged } = context.timed("coarsen", |_| {
+        Ok(coarsen(cube, COARSE_FACES.min(cube.len() / FACES_FOR_ONE), noise))
+    })?;
+    let working = Working::new(mesh);
+    let mut coarse = context.timed("prepare", |_| Ok(Scene::raw(&working)))?;
+    let start: Option<Labels> =
+        start.map(|labels| origin.iter().map(|&face| labels[face as usize]).collect());
+    let options = Options { coarse: options::Coarse::Off, ..options.clone() };
+    let coarser = Task { cube: &working, options: &options, start: start.as_deref() };
+    let found = default(context, &mut coarse, coarser)?;
+    let (mut models, mut labels) = context.timed("carry", |_| {
+        scene.grain = (cube.len() / working.len().max(1)).max(1) as u32;
+        if averaged > 1 {
+            scene.normals = carry::normals(scene, &coarse, &site).into();
+            scene.evidence.normal_sigma = coarse.evidence.normal_sigma;
+        } else {
+            scene.filter();
+        }
+        let normal_sigma = scene.evidence.normal_sigma.max(coarse.evidence.normal_sigma);
+        scene.evidence = Evidence { normal_sigma, ..coarse.evidence };
+        let mut models = models(&coarse, &found.labels, found.surfaces);
+        let labels = &found.labels;
+        let labels = carry::carry(scene, &working.adjacency, &site, labels, &mut models);
+        let surfaces: Vec<Surface> = models.iter().map(|model| model.surface.clone()).collect();
+        evidence::carried(scene, &surfaces, &labels, averaged > 1);
+        Ok((models, labels))
+    })?;
+    // What noise hides from means of vertices, single ones do not show.
+    if averaged == 1 && options.regions.is_none() {
+        context.timed("complete", |context| {
+            carry::complete(context, scene, &mut models, &mut labels)
+        })?;
+    }
+    context.timed("settle", |_| {
+        carry::settle(scene, &mut models, &mut labels);
+        let surfaces: Vec<Surface> = models.into_iter().map(|model| model.surface).collect();
+        let parents: Vec<u32> = (0..cube.len() as u32).collect();
+        let outcome = Outcome { labels, surfaces, energy: found.energy };
+        Ok(back(outcome, cube, &parents, scene))
+    })
+}
+
+/// Regions that hang together, on the faces of `scene` that those of `working` are parts of.
+fn back(mut outcome: Outcome, working: &Working, parents: &[u32], scene: &Scene) -> Outcome {
+    let origin = separate(&mut outcome.labels, &working.adjacency, PIECE * scene.grain);
+    let back = labels_back(
+        &outcome.labels,
+        parents,
+        &working.geometry.areas,
+        scene.adjacency,
+        &scene.geometry.normals,
+        &scene.geometry.areas,
+    );
+    let surface = |&former: &u32| outcome.surfaces[origin[former as usize] as usize].clone();
+    Outcome {
+        surfaces: back.former.iter().map(surface).collect(),
+        labels: back.labels,
+        energy: outcome.energy,
+    }
+}
+
+/// Lets the constrained surfaces divide the faces anew (paper, 4.3(5)).
+fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<()> {
+    let mut fits = context
+        .timed("describe", |context| fit_all(context, scene, &found.labels, &found.surfaces))?;
+    context.timed("constrain", |_| {
+        equalise(&mut fits);
+        Ok(())
+    })?;
+    context.timed("assign", |_| {
+        let surfaces: Vec<Surface> = fits.into_iter().map(|fit| fit.surface).collect();
+        let mut models = models(scene, &found.labels, surfaces);
+        assign::expand(scene, &models, &mut found.labels);
+        assign::connect(scene, &mut models, &mut found.labels);
+        moves::tidy(&mut models, &mut found.labels);
+        moves::drop_needless(scene, &models, &mut found.labels);
+        moves::tidy(&mut models, &mut found.labels);
+        found.surfaces = models.into_iter().map(|model| model.surface).collect();
+        Ok(())
+    })
+}
+
+/// Surfaces with the side of the material.
+fn models(scene: &Scene, labels: &[u32], surfaces: Vec<Surface>) -> Vec<Model> {
+    let regions = Regions::new(labels);
+    let model = |(i, surface)| Model { side: side_of(scene, &surface, regions.faces(i)), surface };
+    surfaces.into_iter().enumerate().map(model).collect()
+}
