@@ -20,7 +20,7 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     });
     let sound = |surface: &Surface| {
         !singular(surface, samples.points)
-            && curved(surface)
+            && proper(surface)
             && plausible(surface, samples, evidence)
     };
     let all = held.chain([free]).filter(sound);
@@ -39,11 +39,19 @@ pub fn free(samples: Samples) -> Option<Surface> {
     Some(refine_within(&start, samples.points, &[], ITERATIONS)?.surface)
 }
 
-/// Whether a quadric is one of the classes that no simpler type has.
+/// Whether a quadric is one of the curved classes and not two planes.
 pub(super) fn curved(surface: &Surface) -> bool {
-    let Surface::Quadric(quadric) = surface else { return false };
-    let simple = [Class::Plane, Class::Sphere, Class::Cylinder, Class::Cone, Class::Other];
-    !simple.contains(&kind(quadric, 1.0).class)
+    !matches!(class(surface), Class::Plane | Class::Other)
+}
+
+/// Whether a quadric is of a class that no simpler type has.
+fn proper(surface: &Surface) -> bool {
+    curved(surface) && !matches!(class(surface), Class::Sphere | Class::Cylinder | Class::Cone)
+}
+
+fn class(surface: &Surface) -> Class {
+    let Surface::Quadric(quadric) = surface else { return Class::Other };
+    kind(quadric, 1.0).class
 }
 
 /// Whether the gradient vanishes near the points, as it does where two planes meet.
