@@ -128,10 +128,11 @@ fn given(context: &mut Context, scene: &Scene, labels: &[u32]) -> Result<(Labels
     let model = Model { surface: Surface::Plane(unknown), side: 1.0 };
     let mut models = vec![model; region_count(labels)];
     moves::fit(scene, &mut models, labels);
+    let mut labels = labels.to_vec();
     if !scene.evidence.general {
-        general::recast(context, scene, &mut models, labels)?;
+        general::recast(context, scene, &mut models, &mut labels)?;
     }
-    Ok((labels.to_vec(), models))
+    Ok((labels, models))
 }
 
 /// Rounds of the loop, and those after general quadrics were found: neighbours give back what they

@@ -14,7 +14,16 @@ const ITERATIONS: usize = 25;
 
 /// General quadrics of all families that fit, best criterion first.
 pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choice> {
-    let Some(free) = free(samples) else { return Vec::new() };
+    free(samples).map_or_else(Vec::new, |free| choose_near(free, samples, vertices, evidence))
+}
+
+/// The same from the free fit.
+pub fn choose_near(
+    free: Surface,
+    samples: Samples,
+    vertices: usize,
+    evidence: Evidence,
+) -> Vec<Choice> {
     let held = free.quadric().into_iter().flat_map(|near| {
         HELD.into_iter().filter_map(move |family| family.fit(&near, samples).map(Surface::Quadric))
     });

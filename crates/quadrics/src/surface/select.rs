@@ -159,10 +159,11 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     choices
 }
 
-/// A general quadric is asked only where simpler surfaces leave more than noise, and must gain on
-/// the best of them: it fits two planes, and any patch that bends twice.
+/// A general quadric is asked only where simpler surfaces leave more than noise.
 const QUADRIC_FROM: f64 = 2.0;
-const QUADRIC_GAIN: f64 = 0.8;
+/// It must leave less than this share of what the best of them leaves: it fits two planes, and any
+/// patch that bends twice.
+pub const QUADRIC_GAIN: f64 = 0.8;
 
 fn insert(choices: &mut Vec<Choice>, choice: Choice) {
     let at = choices.partition_point(|known| known.criterion <= choice.criterion);
