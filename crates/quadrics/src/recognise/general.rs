@@ -18,8 +18,10 @@ use crate::surface::kind::{Class, kind};
 use crate::surface::select::{self, Choice, Evidence, QUADRIC_GAIN};
 use crate::surface::{Surface, general};
 
-/// Vertices that a fit looks at: classes differ by little.
+/// Vertices that a fit looks at, which decides between classes that differ by little, and that the
+/// first one looks at, which only has to grow.
 const SAMPLES: usize = 600;
+const START: usize = 200;
 /// A region of which the quadric explains this share is a piece of it.
 const ABSORBED: f64 = 0.7;
 /// Fewest faces of a region that a quadric starts from.
@@ -32,7 +34,6 @@ const MARGIN_SCAN: f64 = 40.0;
 /// A parabola or hyperbola also fits two planes with a fillet between them, which parts have far
 /// more often (up to 42): it must save so many times more.
 const OPEN: f64 = 3.0;
-
 /// Most degrees of freedom that a class has less than the free quadric.
 const HELD_FREEDOM: f64 = 3.0;
 
@@ -143,7 +144,7 @@ impl<'s, 'm> Uniter<'s, 'm> {
     /// The regions that the free quadric of one grows over.
     fn grown(&mut self, seed: u32, labels: &[u32]) -> Option<Vec<u32>> {
         let faces = self.faces[seed as usize].clone();
-        let gathered = self.samples(&faces);
+        let gathered = self.scene.samples(&faces, START, &mut self.marks);
         let surface = general::free(gathered.samples())?;
         let choice = self.judge(surface, &gathered);
         if choice.misfit > most_misfit(faces.len()) {
