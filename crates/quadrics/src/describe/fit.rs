@@ -3,7 +3,7 @@
 use crate::math::Point;
 use crate::recognise::scene::{Marks, ROUNDING, Scene};
 use crate::surface::select::{self, Choice};
-use crate::surface::{Scatter, Shape, Surface, refine};
+use crate::surface::{Scatter, Shape, Surface, general, refine};
 
 use super::confidence::{confidence, is_noteworthy};
 
@@ -89,6 +89,9 @@ fn candidates(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) 
     let gathered = scene.samples(faces, CHOICE, marks);
     let samples = gathered.samples();
     let mut choices = select::choose(samples, gathered.total, scene.evidence);
+    if matches!(known, Surface::Quadric(_)) && !scene.evidence.general {
+        choices.extend(general::choose(samples, gathered.total, scene.evidence));
+    }
     if let Some(fit) = refine(known, samples.points, &[]) {
         choices.push(select::judge(fit.surface, samples, gathered.total, scene.evidence));
     }

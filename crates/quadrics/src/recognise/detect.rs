@@ -295,7 +295,7 @@ pub fn side_of(scene: &Scene, surface: &Surface, faces: &[u32]) -> f64 {
 }
 
 /// Alternates between taking the connected faces near the surface and fitting it to them.
-fn grow(
+pub(super) fn grow(
     scene: &Scene,
     start: Candidate,
     keep_type: bool,

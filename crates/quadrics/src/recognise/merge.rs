@@ -15,7 +15,7 @@ use crate::surface::Surface;
 use crate::surface::select::{self, Choice, Evidence};
 
 /// Regions whose normals differ more across their border, on the mean, are not one surface.
-const SMOOTH_DEG: f64 = 25.0;
+pub(super) const SMOOTH_DEG: f64 = 25.0;
 
 /// A pair of adjacent regions and what merging them gains.
 struct Union {
@@ -158,6 +158,6 @@ impl<'s, 'm> Merger<'s, 'm> {
 
 /// Merging discounts correlated samples less than the choice of types does: a misfit that is too
 /// large to be noise counts, however few samples are independent.
-fn merging(evidence: Evidence) -> Evidence {
+pub(super) fn merging(evidence: Evidence) -> Evidence {
     Evidence { independent: evidence.independent.sqrt(), ..evidence }
 }

@@ -7,6 +7,7 @@ mod cut;
 pub mod detect;
 pub mod evidence;
 mod free_form;
+mod general;
 pub mod merge;
 pub mod moves;
 pub mod scene;
@@ -43,38 +44,20 @@ pub fn recognise(
 ) -> Result<Outcome> {
     context.timed("noise", |context| evidence::measure(context, scene))?;
     let (mut labels, mut models) = match initial_labels {
-        Some(labels) => given(scene, labels),
+        Some(labels) => given(context, scene, labels)?,
         None => start(context, scene)?,
     };
     let scene = &*scene;
     let mut energies: Vec<f64> = Vec::new();
-    for round in 0..ROUNDS {
-        context.step("optimise", round as f64 / ROUNDS as f64)?;
-        context.timed("assign", |_| {
-            assign::expand(scene, &models, &mut labels);
-            assign::connect(scene, &mut models, &mut labels);
-            moves::tidy(&mut models, &mut labels);
-            moves::drop_needless(scene, &models, &mut labels);
-            moves::tidy(&mut models, &mut labels);
-            Ok(())
-        })?;
-        context.timed("fit", |_| {
-            moves::fit(scene, &mut models, &labels);
-            Ok(())
-        })?;
-        // Regions that the user gives are not united.
-        if initial_labels.is_none() {
-            context.timed("merge", |context| {
-                merge::merge(context, scene, &mut models, &mut labels)?;
-                free_form::unite(scene, &mut models, &mut labels);
-                Ok(())
-            })?;
-        }
-        energies.push(energy(scene, &models, &labels));
-        if let [.., before, now] = energies[..]
-            && (before - now).abs() <= CONVERGED * before
-        {
-            break;
+    // Regions that the user gives are not united.
+    let unite = initial_labels.is_none();
+    optimise(context, scene, &mut models, &mut labels, &mut energies, unite, ROUNDS)?;
+    // On a clean mesh quadrics have grown like any other surface.
+    if unite && !scene.evidence.general {
+        let found = context
+            .timed("merge", |context| general::unite(context, scene, &mut models, &mut labels))?;
+        if found {
+            optimise(context, scene, &mut models, &mut labels, &mut energies, unite, AFTER)?;
         }
     }
     if let Some(goal) = options.regions {
@@ -84,6 +67,47 @@ pub fn recognise(
     }
     let surfaces = models.into_iter().map(|m| m.surface).collect();
     Ok(Outcome { labels, surfaces, energy: energies })
+}
+
+/// Rounds of assigning, fitting and merging, until the energy settles.
+fn optimise(
+    context: &mut Context,
+    scene: &Scene,
+    models: &mut Vec<Model>,
+    labels: &mut Labels,
+    energies: &mut Vec<f64>,
+    unite: bool,
+    rounds: usize,
+) -> Result<()> {
+    for round in 0..rounds {
+        context.step("optimise", round as f64 / rounds as f64)?;
+        context.timed("assign", |_| {
+            assign::expand(scene, models, labels);
+            assign::connect(scene, models, labels);
+            moves::tidy(models, labels);
+            moves::drop_needless(scene, models, labels);
+            moves::tidy(models, labels);
+            Ok(())
+        })?;
+        context.timed("fit", |_| {
+            moves::fit(scene, models, labels);
+            Ok(())
+        })?;
+        if unite {
+            context.timed("merge", |context| {
+                merge::merge(context, scene, models, labels)?;
+                free_form::unite(scene, models, labels);
+                Ok(())
+            })?;
+        }
+        energies.push(energy(scene, models, labels));
+        if let [.., before, now] = energies[..]
+            && (before - now).abs() <= CONVERGED * before
+        {
+            break;
+        }
+    }
+    Ok(())
 }
 
 /// The loop ends when the energy changes by less than this fraction.
@@ -99,16 +123,22 @@ fn energy(scene: &Scene, models: &[Model], labels: &[u32]) -> f64 {
 }
 
 /// The user's labels, each with the surface that fits it.
-fn given(scene: &Scene, labels: &[u32]) -> (Labels, Vec<Model>) {
+fn given(context: &mut Context, scene: &Scene, labels: &[u32]) -> Result<(Labels, Vec<Model>)> {
     let unknown = Plane::through(Point::origin(), Vector::z_axis());
     let model = Model { surface: Surface::Plane(unknown), side: 1.0 };
     let mut models = vec![model; region_count(labels)];
     moves::fit(scene, &mut models, labels);
-    (labels.to_vec(), models)
+    let mut labels = labels.to_vec();
+    if !scene.evidence.general {
+        general::recast(context, scene, &mut models, &mut labels)?;
+    }
+    Ok((labels, models))
 }
 
-/// Rounds of the loop.
+/// Rounds of the loop, and those after general quadrics were found: neighbours give back what they
+/// had taken and may go (one leaves them, four drift).
 const ROUNDS: usize = 4;
+const AFTER: usize = 2;
 /// Connected faces that no surface explains and that are more than this are free-form.
 const FREE_FORM: u32 = 60;
 

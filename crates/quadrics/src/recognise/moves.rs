@@ -7,8 +7,8 @@ use super::detect::side_of;
 use super::scene::{Marks, Scene};
 use crate::mesh::NONE;
 use crate::partition::{Regions, compact};
-use crate::surface::Surface;
 use crate::surface::select::{self, Choice, Evidence};
+use crate::surface::{Surface, general};
 
 /// What one more region costs besides its surface: its boundary and its label.
 pub(super) const LABEL: f64 = 10.0;
@@ -38,7 +38,15 @@ fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
     if matches!(model.surface, Surface::FreeForm) {
         return;
     }
-    if let Some(choice) = choose(scene, faces, scene.evidence, marks) {
+    let simple = choose(scene, faces, scene.evidence, marks);
+    // Under noise only a region that is a general quadric already may be one.
+    let general =
+        (matches!(model.surface, Surface::Quadric(_)) && !scene.evidence.general).then(|| {
+            let gathered = scene.samples(faces, SAMPLES, marks);
+            general::choose(gathered.samples(), gathered.total, scene.evidence)
+        });
+    let choices = simple.into_iter().chain(general.into_iter().flatten());
+    if let Some(choice) = choices.min_by(|a, b| a.criterion.total_cmp(&b.criterion)) {
         model.side = side_of(scene, &choice.surface, faces);
         model.surface = choice.surface;
     }

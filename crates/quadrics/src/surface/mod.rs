@@ -6,6 +6,8 @@
 mod condensed;
 mod cone;
 mod cylinder;
+pub mod family;
+pub mod general;
 pub mod height_field;
 pub mod kind;
 mod local;
@@ -164,6 +166,8 @@ impl Surface {
     }
 }
 
+#[cfg(test)]
+mod family_tests;
 #[cfg(test)]
 mod refine_tests;
 #[cfg(test)]

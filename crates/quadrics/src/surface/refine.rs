@@ -7,6 +7,7 @@
 
 use nalgebra::{Const, DimMin, SMatrix, SVector, UnitQuaternion};
 
+use super::family::Family;
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
 use super::{Quadric, Surface};
 use crate::math::{Point, Similarity, Vector};
@@ -213,42 +214,48 @@ impl LocalQuadric {
         let local = Quadric { coefficients: self.coefficients.into() };
         Some(Surface::Quadric(local.transformed(&frame_at(self.centre, self.scale))))
     }
+}
 
-    fn monomials(&self, point: Point) -> (SVector<f64, 10>, Vector) {
-        let p = (point - self.centre) / self.scale;
-        let (x, y, z) = (p.x, p.y, p.z);
-        (SVector::from([1.0, x, y, z, x * x, x * y, x * z, y * y, y * z, z * z]), p)
-    }
+/// `1, x, y, z, x², xy, xz, y², yz, z²`.
+fn monomials(p: Vector) -> SVector<f64, 10> {
+    let (x, y, z) = (p.x, p.y, p.z);
+    SVector::from([1.0, x, y, z, x * x, x * y, x * z, y * y, y * z, z * z])
+}
+
+/// `f / |∇f|` of a quadric at a point, the direction of the gradient, and the derivatives by the
+/// coefficients.
+pub(super) fn taubin_distance(c: &SVector<f64, 10>, p: Vector) -> (f64, Vector, SVector<f64, 10>) {
+    let (x, y, z) = (p.x, p.y, p.z);
+    let gradient = Vector::new(
+        c[1] + 2.0 * c[4] * x + c[5] * y + c[6] * z,
+        c[2] + c[5] * x + 2.0 * c[7] * y + c[8] * z,
+        c[3] + c[6] * x + c[8] * y + 2.0 * c[9] * z,
+    );
+    let length = gradient.norm().max(1e-12);
+    let monomials = monomials(p);
+    let distance = c.dot(&monomials) / length;
+    let n = gradient / length;
+    // d/dc of f/|∇f|: the gradient's length changes with the coefficients too.
+    let turn = SVector::from([
+        0.0,
+        n.x,
+        n.y,
+        n.z,
+        2.0 * x * n.x,
+        y * n.x + x * n.y,
+        z * n.x + x * n.z,
+        2.0 * y * n.y,
+        z * n.y + y * n.z,
+        2.0 * z * n.z,
+    ]);
+    (distance, n, (monomials - turn * distance) / length)
 }
 
 impl Local<10> for LocalQuadric {
     fn residual(&self, point: Point) -> (f64, SVector<f64, 10>) {
-        let (f, p) = self.monomials(point);
-        let c = &self.coefficients;
-        let gradient = Vector::new(
-            c[1] + 2.0 * c[4] * p.x + c[5] * p.y + c[6] * p.z,
-            c[2] + c[5] * p.x + 2.0 * c[7] * p.y + c[8] * p.z,
-            c[3] + c[6] * p.x + c[8] * p.y + 2.0 * c[9] * p.z,
-        );
-        let length = gradient.norm().max(1e-12);
-        let value = c.dot(&f);
-        let distance = value / length;
-        let n = gradient / length;
-        // d/dc of f/|∇f|: the gradient's length changes with the coefficients too.
-        let (x, y, z) = (p.x, p.y, p.z);
-        let turn = SVector::from([
-            0.0,
-            n.x,
-            n.y,
-            n.z,
-            2.0 * x * n.x,
-            y * n.x + x * n.y,
-            z * n.x + x * n.z,
-            2.0 * y * n.y,
-            z * n.y + y * n.z,
-            2.0 * z * n.z,
-        ]);
-        ((distance * self.scale), (f - turn * distance) * (self.scale / length))
+        let p = (point - self.centre) / self.scale;
+        let (distance, _, row) = taubin_distance(&self.coefficients, p);
+        (distance * self.scale, row * self.scale)
     }
 
     fn moved(&self, step: &SVector<f64, 10>) -> Option<Self> {
@@ -267,15 +274,20 @@ fn frame_at(centre: Point, scale: f64) -> Similarity {
     Similarity::from_parts(centre.coords.into(), UnitQuaternion::identity(), scale)
 }
 
+/// Within the family of the quadric.
 fn refine_quadric(
     quadric: &Quadric,
     points: &[Point],
     weights: &[f64],
     iterations: usize,
 ) -> Option<(Surface, f64)> {
-    let start = LocalQuadric::new(quadric, points)?;
-    let (model, _) = minimise(start, points, weights, iterations);
-    let surface = model.surface()?;
+    let surface = match Family::of(quadric) {
+        Family::General => {
+            let start = LocalQuadric::new(quadric, points)?;
+            minimise(start, points, weights, iterations).0.surface()?
+        }
+        held => held.refine(quadric, points, weights, iterations)?,
+    };
     let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
     let square = |p: &Point| surface.distance(*p).map_or(0.0, |d| d * d);
     let cost = points.iter().enumerate().map(|(i, p)| weight(i) * square(p)).sum();

@@ -4,9 +4,9 @@
 //! samples: `n mean(min(d²/σ², cap)) + 2 cost(type) ln n`. Costs are not parameter counts: bands
 //! around an axis fit spheres as well as cones, so a sphere must cost more than its four parameters.
 
-use super::kind::{Class, kind};
+use super::family::Family;
 use super::start::{self, Samples};
-use super::{Shape, Surface, refine_within};
+use super::{Shape, Surface, general, refine_within};
 use crate::math::{Point, Vector};
 
 /// What is known of the noise.
@@ -18,8 +18,15 @@ pub struct Evidence {
     pub independent: f64,
     /// Standard deviation of the (filtered) face normals, in radians.
     pub normal_sigma: f64,
-    /// Whether a general quadric may be chosen.
+    /// Whether the mesh is clean: a general quadric may be chosen wherever it fits.
     pub general: bool,
+}
+
+impl Evidence {
+    /// Independent samples that so many vertices stand for, at least two.
+    pub fn samples(&self, vertices: usize) -> f64 {
+        (vertices as f64 * self.independent).max(2.0)
+    }
 }
 
 /// A surface chosen for some points.
@@ -60,7 +67,8 @@ pub fn cost(surface: &Surface) -> f64 {
         Surface::Cone(_) => 6.0,
         Surface::Sphere(_) => 6.5,
         Surface::Torus(_) => 8.0,
-        Surface::Quadric(_) => 9.0,
+        // By its degrees of freedom: 9, and less for cones, paraboloids and cylinders.
+        Surface::Quadric(s) => Family::of(s).freedom() as f64,
         Surface::FreeForm => 0.0,
     }
 }
@@ -86,7 +94,7 @@ pub fn misfit(surface: &Surface, points: &[Point], sigma: f64) -> f64 {
 /// The criterion of a surface for `vertices` vertices of which `samples` are looked at.
 pub fn judge(surface: Surface, samples: Samples, vertices: usize, evidence: Evidence) -> Choice {
     let misfit = misfit(&surface, samples.points, evidence.sigma);
-    let count = (vertices as f64 * evidence.independent).max(2.0);
+    let count = evidence.samples(vertices);
     let criterion = count * misfit + 2.0 * cost(&surface) * count.ln();
     Choice { surface, misfit, criterion }
 }
@@ -104,7 +112,7 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
         }
         choices.first().map_or(f64::INFINITY, |best| best.criterion)
     };
-    let count = (vertices as f64 * evidence.independent).max(2.0);
+    let count = evidence.samples(vertices);
     let bound = |cost: f64| count * LEAST_MISFIT + 2.0 * cost * count.ln();
     let mut best = f64::INFINITY;
     if let Some(plane) = start::plane(samples) {
@@ -139,13 +147,11 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     if evidence.general
         && best > bound(9.0)
         && simple > QUADRIC_FROM
-        && samples.points.len() >= 14
-        && let Some(quadric) = start::quadric(samples)
-        && let Some(fit) = refine_within(&quadric, samples.points, &[], FINAL_ITERATIONS)
-        && !singular(&fit.surface, samples.points)
-        && curved(&fit.surface)
+        && let Some(quadric) = general::free(samples)
+        && !general::singular(&quadric, samples.points)
+        && general::curved(&quadric)
     {
-        let choice = judge(fit.surface, samples, vertices, evidence);
+        let choice = judge(quadric, samples, vertices, evidence);
         if choice.misfit < QUADRIC_GAIN * simple {
             insert(&mut choices, choice);
         }
@@ -153,28 +159,15 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     choices
 }
 
-/// A general quadric is asked only where simpler surfaces leave more than noise, and must gain on
-/// the best of them: it fits two planes, and any patch that bends twice.
+/// A general quadric is asked only where simpler surfaces leave more than noise.
 const QUADRIC_FROM: f64 = 2.0;
-const QUADRIC_GAIN: f64 = 0.8;
+/// It must leave less than this share of what the best of them leaves: it fits two planes, and any
+/// patch that bends twice.
+pub const QUADRIC_GAIN: f64 = 0.8;
 
 fn insert(choices: &mut Vec<Choice>, choice: Choice) {
     let at = choices.partition_point(|known| known.criterion <= choice.criterion);
     choices.insert(at, choice);
-}
-
-/// Whether a quadric is one of the curved classes and not two planes.
-fn curved(surface: &Surface) -> bool {
-    let Surface::Quadric(quadric) = surface else { return false };
-    !matches!(kind(quadric, 1.0).class, Class::Plane | Class::Other)
-}
-
-/// Whether the gradient vanishes near the points, as it does where two planes meet.
-fn singular(surface: &Surface, points: &[Point]) -> bool {
-    let Surface::Quadric(quadric) = surface else { return false };
-    let mut slopes: Vec<f64> = points.iter().map(|&p| quadric.gradient(p).norm()).collect();
-    slopes.sort_unstable_by(f64::total_cmp);
-    slopes[slopes.len() / 20] < slopes[slopes.len() / 2] / 4.0
 }
 
 /// The best orthogonal-distance fit from several starts: a few iterations each, the winner to the end.
@@ -185,7 +178,7 @@ fn best_of(starts: impl Iterator<Item = Surface>, samples: Samples) -> Option<Su
 }
 
 /// Whether a surface is of sensible size and seen from one side.
-fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> bool {
+pub(super) fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> bool {
     let sensible = match surface {
         Surface::Sphere(s) => s.radius < LARGEST_RADIUS,
         Surface::Cylinder(s) => s.radius < LARGEST_RADIUS,

@@ -5,11 +5,11 @@
 //! one), those of the points, and the direction of least curvature of a height field. Given the axis,
 //! the normals' lines meet it, which gives its place, and the profile is a line or a circle.
 
-use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, Vector2};
+use nalgebra::{Matrix2, Matrix3, SMatrix, SVector, UnitQuaternion, Vector2};
 
 use super::refine::centroid;
 use super::{Cone, Cylinder, Plane, Quadric, Sphere, Surface, Torus};
-use crate::math::{Point, Unit, Vector, frame};
+use crate::math::{Point, Similarity, Unit, Vector, frame};
 
 /// Points of a surface, and normals at other points of it.
 #[derive(Debug, Clone, Copy)]
@@ -230,10 +230,21 @@ pub fn quadric(samples: Samples) -> Option<Surface> {
     let center = centroid(samples.points)?;
     let spread = samples.points.iter().map(|p| (p - center).norm_squared()).sum::<f64>();
     let scale = (spread / samples.points.len() as f64).sqrt().max(1e-300);
+    let frame = Similarity::from_parts(center.coords.into(), UnitQuaternion::identity(), scale);
+    let local = quadric_in(samples.points, &frame, |_| true)?;
+    Some(Surface::Quadric(local.transformed(&frame)))
+}
+
+/// The same in a frame, where only the coefficients of which `free` is true may differ from zero.
+pub fn quadric_in(
+    points: &[Point],
+    frame: &Similarity,
+    free: impl Fn(usize) -> bool,
+) -> Option<Quadric> {
     let mut values = SMatrix::<f64, 10, 10>::zeros();
     let mut slopes = SMatrix::<f64, 10, 10>::zeros();
-    for p in samples.points {
-        let p = (p - center) / scale;
+    for p in points {
+        let p = frame.inverse_transform_point(p);
         let (x, y, z) = (p.x, p.y, p.z);
         let f = SVector::from([1.0, x, y, z, x * x, x * y, x * z, y * y, y * z, z * z]);
         values += f * f.transpose();
@@ -246,6 +257,14 @@ pub fn quadric(samples: Samples) -> Option<Surface> {
             slopes += g * g.transpose();
         }
     }
+    // Without slope a coefficient has no part in the largest μ below.
+    for held in (0..10).filter(|&i| !free(i)) {
+        for matrix in [&mut values, &mut slopes] {
+            matrix.fill_row(held, 0.0);
+            matrix.fill_column(held, 0.0);
+        }
+        values[(held, held)] = 1.0;
+    }
     // The largest μ of slopes c = μ values c is the least of the inverse problem; the values'
     // matrix may be singular (points exactly on a quadric), hence the ridge.
     let ridge = 1e-13 * values.trace();
@@ -256,14 +275,16 @@ pub fn quadric(samples: Samples) -> Option<Surface> {
     let eigen = ((inner + inner.transpose()) / 2.0).symmetric_eigen();
     let best = eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned();
     let local = lower.transpose().solve_upper_triangular(&best)?;
-    let local = local.try_normalize(1e-300)?;
-    let there = nalgebra::Similarity3::from_parts(
-        center.coords.into(),
-        nalgebra::UnitQuaternion::identity(),
-        scale,
-    );
-    let quadric = Quadric { coefficients: local.into() }.transformed(&there);
-    Some(Surface::Quadric(quadric))
+    Some(Quadric { coefficients: local.try_normalize(1e-300)?.into() })
+}
+
+/// The point that the tangent planes come nearest to: the apex of a cone of any section.
+pub fn common_point(samples: Samples) -> Option<Point> {
+    let center = centroid(samples.barycentres)?;
+    let pull = |(p, n): (&Point, &Vector)| n * n.dot(&(p - center));
+    let pull: Vector = samples.barycentres.iter().zip(samples.normals).map(pull).sum();
+    let shift = scatter(samples.normals.iter().copied()).lu().solve(&pull)?;
+    shift.iter().all(|c| c.is_finite()).then(|| center + shift)
 }
 
 fn scatter(vectors: impl Iterator<Item = Vector>) -> Matrix3<f64> {
