@@ -52,6 +52,13 @@ fn cost<S: Shape>(scene: &Scene, shape: &S, side: f64, face: usize) -> f64 {
     position + normal.min(NORMAL_CAP)
 }
 
+/// Cost of a border along an edge of a face.
+pub(super) fn border_cost(scene: &Scene, face: usize, edge: usize) -> f64 {
+    let [a, b] = [edge, (edge + 1) % 3].map(|k| scene.mesh.faces[face][k] as usize);
+    let length = (scene.mesh.positions[a] - scene.mesh.positions[b]).norm() / scene.edge;
+    length * if scene.correlated() { SMOOTHNESS_SCAN } else { SMOOTHNESS }
+}
+
 /// Hands unlabelled faces to a neighbour's surface, the best fitting face first.
 pub fn flood(scene: &Scene, models: &[Model], labels: &mut [u32]) {
     let mut queue = BinaryHeap::new();
@@ -108,7 +115,6 @@ fn expand_one(
     seen: &mut Marks,
 ) {
     let model = &models[label as usize];
-    let weight = if scene.correlated() { SMOOTHNESS_SCAN } else { SMOOTHNESS } / scene.edge;
     // Faces of others, reached from the region, that might come over.
     seen.clear(labels.len());
     let mut active: Vec<u32> = Vec::new();
@@ -155,8 +161,7 @@ fn expand_one(
             if other == crate::mesh::NONE {
                 continue;
             }
-            let [a, b] = [edge, (edge + 1) % 3].map(|k| scene.mesh.faces[face][k] as usize);
-            let length = weight * (scene.mesh.positions[a] - scene.mesh.positions[b]).norm();
+            let length = border_cost(scene, face, edge);
             let differ = if labels[other as usize] == labels[face] { 0.0 } else { length };
             match index.get(&other) {
                 // Both come: no border. One comes: a border. Both stay: as it was.

@@ -6,16 +6,22 @@ use rayon::prelude::*;
 
 use super::assign::Model;
 use super::detect::side_of;
-use super::moves::{LABEL, SAMPLES, borders, choose, tidy};
+use super::moves::{LABEL, borders, choose, judge, tidy};
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
 use crate::partition::Regions;
 use crate::surface::Surface;
-use crate::surface::select::{self, Choice, Evidence};
+use crate::surface::select::{Choice, Evidence};
 
 /// Regions whose normals differ more across their border, on the mean, are not one surface.
-pub(super) const SMOOTH_DEG: f64 = 25.0;
+pub(super) const SMOOTH_DEG: f64 = 18.0;
+
+/// What one surface for two regions must save beside its price under independent noise, and two for
+/// one: a difference that chance makes is not worth a change (10 and 40 are about as good). On scans,
+/// whose waviness tears regions, it may cost what the labels do.
+pub(super) const CHANGE: f64 = 20.0;
+const CHANGE_SCAN: f64 = -2.0 * LABEL;
 
 /// A pair of adjacent regions and what merging them gains.
 struct Union {
@@ -43,13 +49,14 @@ pub fn merge(
     labels: &mut [u32],
 ) -> Result<()> {
     let smooth = 2.0 - 2.0 * SMOOTH_DEG.to_radians().cos();
+    let least = if scene.correlated() || scene.evidence.general { CHANGE_SCAN } else { CHANGE };
     let mut merger = Merger::new(scene, models, labels);
     loop {
         context.step("merge", 0.0)?;
         let typed = |id: u32| !matches!(models[id as usize].surface, Surface::FreeForm);
         let pairs = borders(scene, labels).into_iter();
         merger.judge(pairs.filter(|b| b.2 < smooth && typed(b.0) && typed(b.1)));
-        if merger.apply(models, labels, 0.0, usize::MAX) == 0 {
+        if merger.apply(models, labels, least, usize::MAX) == 0 {
             break;
         }
     }
@@ -91,9 +98,7 @@ impl<'s, 'm> Merger<'s, 'm> {
             .par_iter()
             .zip(models)
             .map_init(Marks::default, |marks, (faces, model)| {
-                let gathered = scene.samples(faces, SAMPLES, marks);
-                let surface = model.surface.clone();
-                select::judge(surface, gathered.samples(), gathered.total, evidence).criterion
+                judge(scene, &model.surface, faces, evidence, marks).criterion
             })
             .collect();
         Self { scene, evidence, faces, criteria, unions: BTreeMap::new() }
@@ -109,7 +114,7 @@ impl<'s, 'm> Merger<'s, 'm> {
                 let faces = self.joined(a, b);
                 let choice = choose(self.scene, &faces, self.evidence, marks)?;
                 let apart = self.criteria[a as usize] + self.criteria[b as usize];
-                Some(Union { gain: apart + 2.0 * LABEL - choice.criterion, choice })
+                Some(Union { gain: apart - choice.criterion, choice })
             })
             .collect();
         self.unions.extend(unknown.into_iter().zip(judged));

@@ -11,6 +11,7 @@ mod general;
 pub mod merge;
 pub mod moves;
 pub mod scene;
+mod split;
 
 use crate::context::Context;
 use crate::error::Result;
@@ -47,6 +48,7 @@ pub fn recognise(
         Some(labels) => given(context, scene, labels)?,
         None => start(context, scene)?,
     };
+    scene.filter_for_borders();
     let scene = &*scene;
     let mut energies: Vec<f64> = Vec::new();
     // Regions that the user gives are not united.
@@ -99,6 +101,10 @@ fn optimise(
                 free_form::unite(scene, models, labels);
                 Ok(())
             })?;
+            // The last round leaves what the cut has made straight.
+            if round + 1 < rounds {
+                context.timed("split", |context| split::split(context, scene, models, labels))?;
+            }
         }
         energies.push(energy(scene, models, labels));
         if let [.., before, now] = energies[..]

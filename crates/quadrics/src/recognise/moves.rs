@@ -63,6 +63,18 @@ pub(super) fn choose(
     select::choose(gathered.samples(), gathered.total, evidence).into_iter().next()
 }
 
+/// What a surface is worth for some faces.
+pub(super) fn judge(
+    scene: &Scene,
+    surface: &Surface,
+    faces: &[u32],
+    evidence: Evidence,
+    marks: &mut Marks,
+) -> Choice {
+    let gathered = scene.samples(faces, SAMPLES, marks);
+    select::judge(surface.clone(), gathered.samples(), gathered.total, evidence)
+}
+
 /// Removes labels without faces and their models.
 pub fn tidy(models: &mut Vec<Model>, labels: &mut [u32]) {
     let old = labels.to_vec();

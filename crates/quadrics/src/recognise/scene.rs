@@ -34,6 +34,16 @@ const QUIET: f64 = 0.03;
 /// Least standard deviation of normals: facets of a curved surface are not tangent to it.
 pub const NORMAL_FLOOR: f64 = 0.04;
 
+/// Rounds of filtering for borders, and how much further apart normals may be that mix.
+const BORDER_ROUNDS: usize = 3;
+const BORDER_REACH: f64 = 2.0;
+
+/// Normals that are further apart do not mix while surfaces are sought, for raw ones that err by
+/// `raw`; both in radians.
+fn reach(raw: f64) -> f64 {
+    0.2 + 0.55 * raw
+}
+
 impl<'a> Scene<'a> {
     /// Looks at a mesh, and filters its normals as far as the noise asks.
     pub fn new(working: &'a Working) -> Self {
@@ -57,15 +67,32 @@ impl<'a> Scene<'a> {
 
     /// Filters the normals as far as the noise asks.
     pub fn filter(&mut self) {
-        // A normal errs by about twice the noise over the edge.
-        let raw = 2.0 * self.evidence.sigma / self.edge;
+        let raw = self.raw_turn();
         if raw >= QUIET {
             let rounds = (3.0 + 6.0 * raw).round().min(10.0) as usize;
-            let rings = normals::Rings::new(self.mesh, self.adjacency);
-            let reach = 0.2 + 0.55 * raw;
-            self.normals = Cow::Owned(normals::filter(self.geometry, &rings, rounds, reach));
+            self.filter_by(rounds, reach(raw));
             self.evidence.normal_sigma = NORMAL_FLOOR + 0.2 * raw;
         }
+    }
+
+    /// Filters the raw normals anew, for dividing faces between surfaces that are known. Whoever seeks
+    /// surfaces wants normals that stop at creases; those are flat beside them, too, and a plane would
+    /// take half of the fillet that it runs into. The waviness of a scan bends either alike.
+    pub fn filter_for_borders(&mut self) {
+        let raw = self.raw_turn();
+        if raw >= QUIET && !self.correlated() {
+            self.filter_by(BORDER_ROUNDS, BORDER_REACH * reach(raw));
+        }
+    }
+
+    /// How much raw normals err, in radians: about twice the noise over the edge.
+    fn raw_turn(&self) -> f64 {
+        2.0 * self.evidence.sigma / self.edge
+    }
+
+    fn filter_by(&mut self, rounds: usize, reach: f64) {
+        let rings = normals::Rings::new(self.mesh, self.adjacency);
+        self.normals = Cow::Owned(normals::filter(self.geometry, &rings, rounds, reach));
     }
 
     /// Squared distance of a face's corners from a surface, their mean.

@@ -1,0 +1,232 @@
+//! Splitting: a region that two surfaces explain better becomes two, the reverse of merging.
+//!
+//! Under noise a growing region may take in its neighbour, a torus over a cylinder and the chamfer
+//! beside it, as long as nothing but noise seems to be left; no seed is drawn there again. So every
+//! region is asked in a few places whether another surface explains the faces there better.
+
+use rayon::prelude::*;
+
+use super::assign::{Model, border_cost, face_cost};
+use super::cut::Cut;
+use super::detect::side_of;
+use super::merge::CHANGE;
+use super::moves::{choose, judge, tidy};
+use super::scene::{Marks, Scene};
+use crate::context::Context;
+use crate::error::Result;
+use crate::mesh::NONE;
+use crate::partition::Regions;
+use crate::surface::Surface;
+use crate::surface::select::{self, Choice};
+
+/// Places in a region where another surface is sought (24 split more, and not better).
+const PLACES: usize = 8;
+/// Faces of the neighbourhoods there.
+const BALLS: [usize; 3] = [40, 120, 360];
+/// Neighbourhoods, those that gain most, whose surface competes for the whole region.
+const TRIED: usize = 2;
+/// Rounds of dividing the region and fitting both surfaces.
+const REGROUP: usize = 3;
+/// Fewest faces of either part.
+const FEWEST: usize = 12;
+/// What the simplest surface costs: a neighbourhood that another one cannot save so much is no start.
+const CHEAPEST: f64 = 3.0;
+
+/// Splits regions under independent noise while the criterion of merging falls, each once.
+///
+/// Without noise regions take in nothing that is not theirs, and on scans the waviness would part them.
+///
+/// # Errors
+/// Cancellation.
+pub fn split(
+    context: &mut Context,
+    scene: &Scene,
+    models: &mut Vec<Model>,
+    labels: &mut [u32],
+) -> Result<()> {
+    if scene.correlated() || scene.evidence.general {
+        return Ok(());
+    }
+    context.step("split", 0.0)?;
+    let regions = Regions::new(labels);
+    let halves: Vec<Option<Halves>> = models
+        .par_iter()
+        .enumerate()
+        .map_init(Marks::default, |marks, (id, model)| {
+            Region { scene, labels, id: id as u32, faces: regions.faces(id), marks }.split(model)
+        })
+        .collect();
+    for (id, halves) in halves.into_iter().enumerate() {
+        if let Some(Halves { part, pair: [rest, new], .. }) = halves {
+            part.iter().for_each(|&face| labels[face as usize] = models.len() as u32);
+            models[id] = rest;
+            models.push(new);
+        }
+    }
+    tidy(models, labels);
+    Ok(())
+}
+
+/// A region in two: the faces that go, the surfaces of the rest and of them, what that saves.
+struct Halves {
+    part: Vec<u32>,
+    pair: [Model; 2],
+    gain: f64,
+}
+
+/// A region that may be split.
+struct Region<'s, 'm> {
+    scene: &'s Scene<'m>,
+    labels: &'s [u32],
+    id: u32,
+    /// Ascending.
+    faces: &'s [u32],
+    marks: &'s mut Marks,
+}
+
+impl Region<'_, '_> {
+    fn split(&mut self, model: &Model) -> Option<Halves> {
+        if matches!(model.surface, Surface::FreeForm) {
+            return None;
+        }
+        let whole = self.judge(&model.surface, self.faces).criterion;
+        let mut starts = self.starts(&model.surface);
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let halves = starts.into_iter().take(TRIED).filter_map(|(_, ball, choice)| {
+            let new = Model {
+                side: side_of(self.scene, &choice.surface, &ball),
+                surface: choice.surface,
+            };
+            self.divide([model.clone(), new], ball, whole)
+        });
+        halves.max_by(|a, b| a.gain.total_cmp(&b.gain)).filter(|halves| halves.gain > CHANGE)
+    }
+
+    /// Neighbourhoods that another surface explains better, it, and by how much.
+    fn starts(&mut self, surface: &Surface) -> Vec<(f64, Vec<u32>, Choice)> {
+        let mut starts = Vec::new();
+        for place in 0..PLACES {
+            let seed = self.faces[(2 * place + 1) * self.faces.len() / (2 * PLACES)];
+            for size in BALLS.into_iter().filter(|&size| size * 2 < self.faces.len()) {
+                let ball = self.ball(seed, size);
+                let vertices = ball.len() as f64 / 2.0;
+                let misfit = self.judge(surface, &ball).misfit;
+                // Noise alone leaves 1, give or take.
+                let noise = 1.0 - (2.0 / vertices).sqrt();
+                if (misfit - noise) * vertices < CHEAPEST {
+                    continue;
+                }
+                let Some(choice) = choose(self.scene, &ball, self.scene.evidence, self.marks)
+                else {
+                    continue;
+                };
+                let gain = (misfit - choice.misfit) * vertices;
+                if gain > select::cost(&choice.surface) {
+                    starts.push((gain, ball, choice));
+                }
+            }
+        }
+        starts
+    }
+
+    /// The region's faces around one of them, breadth first.
+    fn ball(&mut self, seed: u32, size: usize) -> Vec<u32> {
+        self.marks.clear(self.labels.len());
+        self.marks.mark(seed);
+        let mut ball = vec![seed];
+        let mut next = 0;
+        while next < ball.len() && ball.len() < size {
+            for other in self.scene.adjacency.across(ball[next] as usize) {
+                if self.labels[other] == self.id && self.marks.mark(other as u32) {
+                    ball.push(other as u32);
+                }
+            }
+            next += 1;
+        }
+        ball
+    }
+
+    /// Divides the faces between two surfaces and fits both anew, in turn.
+    fn divide(&mut self, mut pair: [Model; 2], mut part: Vec<u32>, whole: f64) -> Option<Halves> {
+        let mut gain = f64::NEG_INFINITY;
+        for _ in 0..REGROUP {
+            let grown = self.cut(&pair, &part);
+            if grown.len() < FEWEST || grown.len() + FEWEST > self.faces.len() {
+                return None;
+            }
+            let settled = grown == part;
+            part = grown;
+            self.marks.clear(self.labels.len());
+            part.iter().for_each(|&face| {
+                self.marks.mark(face);
+            });
+            let rest: Vec<u32> =
+                self.faces.iter().copied().filter(|&f| !self.marks.has(f)).collect();
+            let (one, first) = self.fit(&rest)?;
+            let (other, second) = self.fit(&part)?;
+            gain = whole - first - second;
+            pair = [one, other];
+            if settled {
+                break;
+            }
+        }
+        Some(Halves { part, pair, gain })
+    }
+
+    /// The best surface for some faces, and its criterion.
+    fn fit(&mut self, faces: &[u32]) -> Option<(Model, f64)> {
+        let Choice { surface, criterion, .. } =
+            choose(self.scene, faces, self.scene.evidence, self.marks)?;
+        let side = side_of(self.scene, &surface, faces);
+        Some((Model { surface, side }, criterion))
+    }
+
+    fn judge(&mut self, surface: &Surface, faces: &[u32]) -> Choice {
+        judge(self.scene, surface, faces, self.scene.evidence, self.marks)
+    }
+
+    /// The faces that a least cut gives to the second surface: the largest connected part that has
+    /// some of `part`.
+    fn cut(&mut self, pair: &[Model; 2], part: &[u32]) -> Vec<u32> {
+        let scene = self.scene;
+        let mut cut = Cut::new(self.faces.len());
+        for (i, &face) in self.faces.iter().enumerate() {
+            let face = face as usize;
+            let [stay, come] = [0, 1].map(|k| face_cost(scene, &pair[k], face));
+            cut.node(i, stay, come);
+            for (edge, &other) in scene.adjacency.neighbours[face].iter().enumerate() {
+                if other != NONE
+                    && let Ok(j) = self.faces.binary_search(&other)
+                    && j > i
+                {
+                    let cost = border_cost(scene, face, edge);
+                    cut.edge(i, j, cost, cost);
+                }
+            }
+        }
+        let stays = cut.solve();
+        let comes = |face: u32| self.faces.binary_search(&face).is_ok_and(|i| !stays[i]);
+        self.marks.clear(self.labels.len());
+        let mut largest: Vec<u32> = Vec::new();
+        for &start in part {
+            if !comes(start) || !self.marks.mark(start) {
+                continue;
+            }
+            let mut piece = vec![start];
+            let mut next = 0;
+            while next < piece.len() {
+                for other in scene.adjacency.across(piece[next] as usize) {
+                    if comes(other as u32) && self.marks.mark(other as u32) {
+                        piece.push(other as u32);
+                    }
+                }
+                next += 1;
+            }
+            if piece.len() > largest.len() {
+                largest = piece;
+            }
+        }
+        largest.sort_unstable();
+        largest
+    }
+}
