@@ -24,9 +24,10 @@ pub struct Model {
 const NORMAL_CAP: f64 = 6.0;
 /// What a face of a free-form region costs.
 const FREE_FORM: f64 = 8.0;
-/// Cost of a mean edge between two regions: smooth boundaries under independent noise; on scans,
-/// whose edges are a triangle wide, little.
+/// Cost of a mean edge between two regions: smooth boundaries under independent noise; less where
+/// faces tell by themselves; on scans, whose edges are a triangle wide, little.
 const SMOOTHNESS: f64 = 2.0;
+const SMOOTHNESS_NOISY: f64 = 3.0;
 const SMOOTHNESS_SCAN: f64 = 0.3;
 /// A face is worth asking when the new surface is at most so much worse than its own.
 const SLACK: f64 = 4.0;
@@ -56,7 +57,12 @@ fn cost<S: Shape>(scene: &Scene, shape: &S, side: f64, face: usize) -> f64 {
 pub(super) fn border_cost(scene: &Scene, face: usize, edge: usize) -> f64 {
     let [a, b] = [edge, (edge + 1) % 3].map(|k| scene.mesh.faces[face][k] as usize);
     let length = (scene.mesh.positions[a] - scene.mesh.positions[b]).norm() / scene.edge;
-    length * if scene.correlated() { SMOOTHNESS_SCAN } else { SMOOTHNESS }
+    let smoothness = match () {
+        () if scene.correlated() => SMOOTHNESS_SCAN,
+        () if scene.noisy() => SMOOTHNESS_NOISY,
+        () => SMOOTHNESS,
+    };
+    length * smoothness
 }
 
 /// Hands unlabelled faces to a neighbour's surface, the best fitting face first.

@@ -127,8 +127,7 @@ pub fn explain(
     let mut costs: Vec<f64> = labels.iter().map(cost).collect();
     // On a clean mesh neighbours take nothing that is not theirs; what is labelled from the start stays.
     let bare = labels.iter().all(|&label| label == UNLABELLED);
-    let independent = !scene.evidence.general && !scene.correlated();
-    let growth = if bare && independent { Growth::Over } else { Growth::Within };
+    let growth = if bare && scene.noisy() { Growth::Over } else { Growth::Within };
     let mut open: Vec<u32> =
         (0..labels.len() as u32).filter(|&f| labels[f as usize] == UNLABELLED).collect();
     let mut dead = vec![false; labels.len()];

@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 
 use super::assign::Model;
 use super::detect::{Candidate, Growth, Workspace, grow, most_misfit, side_of};
-use super::merge::{SMOOTH_DEG, merging};
+use super::merge::{merging, smooth};
 use super::moves::{LABEL, borders, tidy};
 use super::scene::{Gathered, Marks, Scene};
 use crate::context::Context;
@@ -70,7 +70,7 @@ pub fn unite(
 
 /// Whether a region has a smooth border.
 fn continued(scene: &Scene, labels: &[u32], count: usize) -> Vec<bool> {
-    let smooth = 2.0 - 2.0 * SMOOTH_DEG.to_radians().cos();
+    let smooth = smooth(scene);
     let mut continued = vec![false; count];
     for (one, other, _) in borders(scene, labels).into_iter().filter(|border| border.2 < smooth) {
         continued[one as usize] = true;

@@ -14,14 +14,22 @@ use crate::partition::Regions;
 use crate::surface::Surface;
 use crate::surface::select::{Choice, Evidence};
 
-/// Regions whose normals differ more across their border, on the mean, are not one surface.
-pub(super) const SMOOTH_DEG: f64 = 18.0;
+/// Regions whose normals differ more across their border, on the mean, are not one surface. Under
+/// independent noise normals come filtered so that they differ less.
+const SMOOTH_DEG: f64 = 25.0;
+const SMOOTH_NOISY_DEG: f64 = 18.0;
+
+/// Squared difference of normals from which a border is no longer smooth.
+pub(super) fn smooth(scene: &Scene) -> f64 {
+    let degrees = if scene.noisy() { SMOOTH_NOISY_DEG } else { SMOOTH_DEG };
+    2.0 - 2.0 * degrees.to_radians().cos()
+}
 
 /// What one surface for two regions must save beside its price under independent noise, and two for
 /// one: a difference that chance makes is not worth a change (10 and 40 are about as good). On scans,
-/// whose waviness tears regions, it may cost what the labels do.
+/// whose waviness tears regions, and on clean meshes one surface may cost more by the price of the labels.
 pub(super) const CHANGE: f64 = 20.0;
-const CHANGE_SCAN: f64 = -2.0 * LABEL;
+const CHANGE_ELSE: f64 = -2.0 * LABEL;
 
 /// A pair of adjacent regions and what merging them gains.
 struct Union {
@@ -48,8 +56,8 @@ pub fn merge(
     models: &mut Vec<Model>,
     labels: &mut [u32],
 ) -> Result<()> {
-    let smooth = 2.0 - 2.0 * SMOOTH_DEG.to_radians().cos();
-    let least = if scene.correlated() || scene.evidence.general { CHANGE_SCAN } else { CHANGE };
+    let smooth = smooth(scene);
+    let least = if scene.noisy() { CHANGE } else { CHANGE_ELSE };
     let mut merger = Merger::new(scene, models, labels);
     loop {
         context.step("merge", 0.0)?;

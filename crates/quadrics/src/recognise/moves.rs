@@ -13,9 +13,9 @@ use crate::surface::{Surface, general};
 /// What one more region costs besides its surface: its boundary and its label.
 pub(super) const LABEL: f64 = 10.0;
 /// What a region must save beside the price of its surface, in nats over its faces, to be kept. More
-/// than [`LABEL`]: faces count vertices twice, and crumbs between two surfaces fit by chance (60 and
-/// 200 are about as good, decision 0002).
-const KEEP: f64 = 100.0;
+/// than [`LABEL`]: faces count vertices twice, and crumbs between two surfaces fit by chance (25 and
+/// 100 are about as good, decision 0002).
+const KEEP: f64 = 60.0;
 /// Vertices that a fit looks at.
 pub(super) const SAMPLES: usize = 200;
 

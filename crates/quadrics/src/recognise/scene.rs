@@ -134,6 +134,11 @@ impl<'a> Scene<'a> {
         gathered
     }
 
+    /// Whether every vertex errs on its own, and that shows.
+    pub fn noisy(&self) -> bool {
+        !self.evidence.general && !self.correlated()
+    }
+
     /// Whether the noise is that of a scan: neighbours err together.
     pub fn correlated(&self) -> bool {
         self.evidence.independent < 1.0

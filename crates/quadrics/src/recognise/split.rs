@@ -44,7 +44,7 @@ pub fn split(
     models: &mut Vec<Model>,
     labels: &mut [u32],
 ) -> Result<()> {
-    if scene.correlated() || scene.evidence.general {
+    if !scene.noisy() {
         return Ok(());
     }
     context.step("split", 0.0)?;
