@@ -1,11 +1,11 @@
 """Runs on shapes whose surfaces are known, every region judged: a line of JSON a run.
 
 python benchmarks/known/judged.py --data DATA --cache CACHE --out runs.jsonl
-python benchmarks/known/judged.py ... --sets parts --variants clean --seeds 0 1 2 3 --out seeds.jsonl
+python benchmarks/known/judged.py ... --sets parts --variants clean --seeds 0 1 2 --out seeds.jsonl
 python benchmarks/known/judged.py ... --given --out given.jsonl      # starts from the true labels
 
-DATA/SET/NAME holds the clean shapes (mesh.ply, labels.npy, truth.json), CACHE/SET/NAME/VARIANT-SEED-*
-their variants. The other programs of this folder read the lines.
+DATA/SET/NAME holds the clean shapes (mesh.ply, labels.npy, truth.json),
+CACHE/SET/NAME/VARIANT-SEED-* their variants. The other programs of this folder read the lines.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def run(folder: Path, seed: int, options: argparse.Namespace) -> dict[str, objec
 
 
 def regions(result: quadrics.Result, seen: Evaluation) -> list[dict[str, object]]:
-    """What the result says of every region, and what is true of it."""
+    """Put what is true of every region beside what the result says of it."""
     partners = {match.found: match for match in seen.matches}
     rows = []
     for region in result.regions:
