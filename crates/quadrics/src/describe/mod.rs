@@ -2,17 +2,22 @@
 
 mod confidence;
 mod fit;
+mod signs;
 
 pub use confidence::{confidence, is_noteworthy};
 pub use fit::{Recognised, fit};
 
 use rayon::prelude::*;
 
+use signs::Reader;
+
 use crate::context::Context;
 use crate::error::Result;
 use crate::math::{Point, Similarity};
 use crate::mesh::{Adjacency, NONE};
 use crate::partition::Regions;
+use crate::recognise::assign::Model;
+use crate::recognise::detect::side_of;
 use crate::recognise::scene::{Marks, Scene};
 use crate::result::{Region, Side};
 use crate::surface::{Cylinder, Scatter, Surface, centroid, uncertainty};
@@ -62,13 +67,20 @@ pub fn describe(
 ) -> Described {
     let regions = Regions::new(labels);
     let neighbours = neighbours(labels, scene.adjacency, regions.len());
+    let models = models(scene, &regions, found);
+    let reader = Reader { scene, labels, models: &models };
     let mut described = Described::default();
     let mut angles = Vec::new();
     let rows: Vec<_> = found
         .par_iter()
         .enumerate()
         .map_init(Marks::default, |marks, (i, found)| {
-            one(scene, regions.faces(i), found, out, marks)
+            let (mut region, angles) = one(scene, regions.faces(i), found, out, marks);
+            // Either doubt suffices: about the type, or about the extent.
+            if let Some(signs) = reader.read(i, regions.faces(i), marks) {
+                region.confidence = region.confidence.min(signs.probability());
+            }
+            (region, angles)
         })
         .collect();
     for (region, own) in rows {
@@ -81,6 +93,15 @@ pub fn describe(
     }
     described.normal_deg = rayleigh(&mut angles);
     described
+}
+
+/// The surfaces of the regions, with the side of the material.
+fn models(scene: &Scene, regions: &Regions, found: &[Recognised]) -> Vec<Model> {
+    let model = |(i, found): (usize, &Recognised)| Model {
+        side: side_of(scene, &found.surface, regions.faces(i)),
+        surface: found.surface.clone(),
+    };
+    found.par_iter().enumerate().map(model).collect()
 }
 
 /// Everything of one region but its place among the others, and the angles of its face normals.
