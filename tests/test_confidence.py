@@ -43,19 +43,3 @@ def test_of_regions_above_nine_tenths_19_in_20_are_right() -> None:
     sure = every[every[:, 0] > 0.9]
     assert len(sure) > 0.5 * len(every)
     assert sure[:, 1].mean() >= 0.95
-
-
-def test_a_plane_in_two_halves_is_two_doubtful_regions() -> None:
-    part = synth.part("plate", 6_000)
-    whole = quadrics.segment(part.mesh)
-    plane = max((r for r in whole.regions if r.surface.type == "plane"), key=lambda r: r.faces)
-    assert plane.confidence > 0.9
-    labels = whole.labels.copy()
-    faces = np.flatnonzero(labels == plane.id)
-    centres = part.mesh.vertices[part.mesh.faces[faces]].mean(axis=1)
-    along = centres[:, np.argmax(np.ptp(centres, axis=0))]
-    labels[faces[along > np.median(along)]] = labels.max() + 1
-    halves = quadrics.segment(part.mesh, initial_labels=labels, constraints=False)
-    found = np.unique(halves.labels[faces])
-    assert len(found) >= 2
-    assert all(halves.regions[number].confidence < 0.5 for number in found)
