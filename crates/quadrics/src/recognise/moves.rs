@@ -14,8 +14,9 @@ use crate::surface::{Surface, general};
 pub(super) const LABEL: f64 = 10.0;
 /// What a region must save beside the price of its surface, in nats over its faces, to be kept. More
 /// than [`LABEL`]: faces count vertices twice, and crumbs between two surfaces fit by chance (25 and
-/// 100 are about as good, decision 0002).
+/// 100 are about as good, decision 0002). On scans faces that err together count less already.
 const KEEP: f64 = 60.0;
+const KEEP_SCAN: f64 = 30.0;
 /// Vertices that a fit looks at.
 pub(super) const SAMPLES: usize = 200;
 
@@ -115,6 +116,7 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
     let regions = Regions::new(labels);
     let mut order: Vec<usize> = (0..regions.len()).collect();
     order.sort_by_key(|&id| regions.faces(id).len());
+    let keep = if scene.correlated() { KEEP_SCAN } else { KEEP };
     let mut dropped = 0;
     for id in order {
         let faces = regions.faces(id);
@@ -135,7 +137,7 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
             continue;
         }
         let vertices = (faces.len() as f64 / 2.0).max(2.0);
-        let price = KEEP + 2.0 * select::cost(&models[id].surface) * vertices.ln() / 2.0;
+        let price = keep + 2.0 * select::cost(&models[id].surface) * vertices.ln() / 2.0;
         let mut gain = price;
         let mut moved: Vec<u32> = Vec::with_capacity(faces.len());
         for &face in faces {
