@@ -42,6 +42,7 @@ impl LocalPlane {
 }
 
 impl Local<3> for LocalPlane {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 3>) {
         let x = point - self.foot;
         let torque = x.cross(&self.normal);
@@ -90,6 +91,7 @@ impl LocalSphere {
 }
 
 impl Local<4> for LocalSphere {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 4>) {
         let y = point - self.center;
         let length = y.norm();
@@ -146,6 +148,7 @@ impl LocalCylinder {
 }
 
 impl Local<5> for LocalCylinder {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 5>) {
         let y = point - self.center;
         let radial = y - self.axis.into_inner() * self.axis.dot(&y);
@@ -188,6 +191,11 @@ pub(super) struct LocalCone {
     center: Point,
     sine: f64,
     cosine: f64,
+    /// The tangents at the foot: across the generator and along it.
+    across: Vector,
+    along: Vector,
+    /// From the axis towards the normal, at right angles.
+    outward: Vector,
 }
 
 /// Cones closer to a cylinder or a plane than this (sine or cosine of the half angle) are given up.
@@ -214,15 +222,12 @@ impl LocalCone {
         let sine = normal.dot(&axis);
         let cosine = (1.0 - sine * sine).max(0.0).sqrt();
         let center = foot - normal.into_inner() / curvature;
-        (cosine > CONE_LIMIT).then_some(Self {
-            foot,
-            normal,
-            axis,
-            curvature,
-            center,
-            sine,
-            cosine,
-        })
+        let across = axis.cross(&normal) / cosine;
+        let along = normal.cross(&across);
+        let outward = (normal.into_inner() - axis.into_inner() * sine) / cosine;
+        let cone =
+            Self { foot, normal, axis, curvature, center, sine, cosine, across, along, outward };
+        (cosine > CONE_LIMIT).then_some(cone)
     }
 
     pub(super) fn surface(&self) -> Option<Surface> {
@@ -236,6 +241,7 @@ impl LocalCone {
 }
 
 impl Local<6> for LocalCone {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 6>) {
         let (axis, m) = (self.axis.into_inner(), self.normal.into_inner());
         let y = point - self.center;
@@ -245,16 +251,14 @@ impl Local<6> for LocalCone {
         let n = radial * (self.cosine / r) + axis * self.sine;
         let distance = r * self.cosine + self.sine * h - 1.0 / self.curvature;
         let torque = (point - self.foot).cross(&n);
-        let across = axis.cross(&m) / self.cosine;
-        let along = m.cross(&across);
         // The axis turns about the centre, towards the normal: the half angle changes alone.
-        let q = (m - axis * self.sine) / self.cosine;
-        let opening =
-            -self.sine * r + self.cosine * h + (self.sine - self.cosine * h / r) * q.dot(&y);
+        let opening = -self.sine * r
+            + self.cosine * h
+            + (self.sine - self.cosine * h / r) * self.outward.dot(&y);
         let row = [
             -n.dot(&m),
-            -along.dot(&torque),
-            -across.dot(&torque),
+            -self.along.dot(&torque),
+            -self.across.dot(&torque),
             -m.dot(&torque),
             (1.0 - n.dot(&m)) / (self.curvature * self.curvature),
             opening,
@@ -264,12 +268,9 @@ impl Local<6> for LocalCone {
 
     fn moved(&self, step: &SVector<f64, 6>) -> Option<Self> {
         let (axis, m) = (self.axis.into_inner(), self.normal.into_inner());
-        let across = axis.cross(&m) / self.cosine;
-        let along = m.cross(&across);
         let foot = self.foot + m * step[0];
-        let turn = rotation(along * step[1] + across * step[2] + m * step[3]);
-        let q = (m - axis * self.sine) / self.cosine;
-        let axis = Unit::try_new(axis + q * step[5].clamp(-0.5, 0.5), 0.1)?;
+        let turn = rotation(self.along * step[1] + self.across * step[2] + m * step[3]);
+        let axis = Unit::try_new(axis + self.outward * step[5].clamp(-0.5, 0.5), 0.1)?;
         Self::at(foot, turn * self.normal, turn * axis, self.curvature + step[4])
     }
 }
@@ -291,6 +292,7 @@ impl LocalTorus {
 }
 
 impl Local<7> for LocalTorus {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 7>) {
         let torus = &self.torus;
         let axis = torus.axis.into_inner();
