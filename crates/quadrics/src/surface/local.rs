@@ -7,6 +7,7 @@
 use nalgebra::{SVector, UnitQuaternion};
 
 use super::refine::Local;
+use super::torus::from_spine;
 use super::{Cone, Cylinder, Plane, Shape, Sphere, Surface, Torus};
 use crate::math::{Point, Unit, Vector, frame};
 
@@ -301,7 +302,7 @@ impl Local<7> for LocalTorus {
         let radial = y - axis * h;
         let r = radial.norm().max(f64::MIN_POSITIVE);
         let outward = radial / r;
-        let tube = (r - torus.major_radius).hypot(h);
+        let tube = from_spine(r - torus.major_radius, h);
         let n = (outward * (r - torus.major_radius) + axis * h) / tube.max(f64::MIN_POSITIVE);
         let torque = y.cross(&n);
         let row = [
