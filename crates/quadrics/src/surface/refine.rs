@@ -9,7 +9,7 @@ use nalgebra::{Const, DimMin, SMatrix, SVector, UnitQuaternion};
 
 use super::family::Family;
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
-use super::{Quadric, Surface};
+use super::{Quadric, Shape, Surface};
 use crate::math::{Point, Similarity, Vector};
 
 /// A fitted surface and how well it fits.
@@ -290,7 +290,9 @@ fn refine_quadric(
         held => held.refine(quadric, points, weights, iterations)?,
     };
     let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
-    let square = |p: &Point| surface.distance(*p).map_or(0.0, |d| d * d);
+    let fitted = surface.quadric()?;
+    let principal = fitted.principal();
+    let square = |p: &Point| principal.distance(*p).powi(2);
     let cost = points.iter().enumerate().map(|(i, p)| weight(i) * square(p)).sum();
     Some((surface, cost))
 }
