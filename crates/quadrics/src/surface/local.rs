@@ -3,6 +3,7 @@
 //! A step is a shift along the normal `m` at the foot `f`, a rotation about it, and a change of
 //! curvature. Where a surface moves with velocity `v(x)`, the distance of `x` changes by `-n · v`,
 //! `n` being the normal at the foot of `x`; for a rotation `n · (ω × (x - f)) = ω · ((x - f) × n)`.
+//! Both are taken in a right-handed frame along the axis, where surfaces of revolution are plane.
 
 use nalgebra::{SVector, UnitQuaternion};
 
@@ -151,17 +152,19 @@ impl LocalCylinder {
 impl Local<5> for LocalCylinder {
     #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 5>) {
-        let y = point - self.center;
-        let radial = y - self.axis.into_inner() * self.axis.dot(&y);
-        let length = radial.norm();
-        let n = radial / length.max(f64::MIN_POSITIVE);
-        let torque = (point - self.foot).cross(&n);
+        // In the frame of normal, across and axis.
+        let offset = point - self.foot;
+        let (x, y, z) =
+            (self.normal.dot(&offset), self.across.dot(&offset), self.axis.dot(&offset));
+        let length = ((x + self.radius).powi(2) + y * y).sqrt();
+        let scale = 1.0 / length.max(f64::MIN_POSITIVE);
+        let n = [(x + self.radius) * scale, y * scale];
         let row = [
-            -n.dot(&self.normal),
-            -self.axis.dot(&torque),
-            -self.across.dot(&torque),
-            -self.normal.dot(&torque),
-            self.radius * self.radius * (1.0 - n.dot(&self.normal)),
+            -n[0],
+            y * n[0] - x * n[1],
+            -z * n[0],
+            z * n[1],
+            self.radius * self.radius * (1.0 - n[0]),
         ];
         (length - self.radius, row.into())
     }
@@ -244,25 +247,26 @@ impl LocalCone {
 impl Local<6> for LocalCone {
     #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 6>) {
-        let (axis, m) = (self.axis.into_inner(), self.normal.into_inner());
-        let y = point - self.center;
-        let h = axis.dot(&y);
-        let radial = y - axis * h;
-        let r = radial.norm().max(f64::MIN_POSITIVE);
-        let n = radial * (self.cosine / r) + axis * self.sine;
-        let distance = r * self.cosine + self.sine * h - 1.0 / self.curvature;
-        let torque = (point - self.foot).cross(&n);
-        // The axis turns about the centre, towards the normal: the half angle changes alone.
-        let opening = -self.sine * r
-            + self.cosine * h
-            + (self.sine - self.cosine * h / r) * self.outward.dot(&y);
+        // In the frame of outward, across and axis.
+        let offset = point - self.center;
+        let (x, y, h) =
+            (self.outward.dot(&offset), self.across.dot(&offset), self.axis.dot(&offset));
+        let (sine, cosine, radius) = (self.sine, self.cosine, 1.0 / self.curvature);
+        let r = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
+        let distance = r * cosine + sine * h - radius;
+        let scale = cosine / r;
+        let n = [x * scale, y * scale, sine];
+        let from_foot = Vector::new(x - cosine * radius, y, h - sine * radius);
+        let torque = from_foot.cross(&Vector::from(n));
+        let lift = 1.0 - (cosine * n[0] + sine * sine);
         let row = [
-            -n.dot(&m),
-            -self.along.dot(&torque),
-            -self.across.dot(&torque),
-            -m.dot(&torque),
-            (1.0 - n.dot(&m)) / (self.curvature * self.curvature),
-            opening,
+            lift - 1.0,
+            sine * torque.x - cosine * torque.z,
+            -torque.y,
+            -cosine * torque.x - sine * torque.z,
+            lift * radius * radius,
+            // The axis turns about the centre, towards the normal: the half angle changes alone.
+            cosine * h - sine * r + (sine - h * scale) * x,
         ];
         (distance, row.into())
     }
@@ -295,25 +299,20 @@ impl LocalTorus {
 impl Local<7> for LocalTorus {
     #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 7>) {
+        // In the frame of the tangents and the axis.
         let torus = &self.torus;
-        let axis = torus.axis.into_inner();
-        let y = point - torus.center;
-        let h = axis.dot(&y);
-        let radial = y - axis * h;
-        let r = radial.norm().max(f64::MIN_POSITIVE);
-        let outward = radial / r;
-        let tube = from_spine(r - torus.major_radius, h);
-        let n = (outward * (r - torus.major_radius) + axis * h) / tube.max(f64::MIN_POSITIVE);
-        let torque = y.cross(&n);
-        let row = [
-            -n.x,
-            -n.y,
-            -n.z,
-            -self.tangents.0.dot(&torque),
-            -self.tangents.1.dot(&torque),
-            -n.dot(&outward),
-            -1.0,
-        ];
+        let offset = point - torus.center;
+        let (u, v) = (&self.tangents.0, &self.tangents.1);
+        let (x, y, h) = (u.dot(&offset), v.dot(&offset), torus.axis.dot(&offset));
+        let r = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
+        let across = r - torus.major_radius;
+        let tube = from_spine(across, h);
+        let outward = across / tube.max(f64::MIN_POSITIVE);
+        let scale = outward / r;
+        let n = [x * scale, y * scale, h / tube.max(f64::MIN_POSITIVE)];
+        let normal = u.into_inner() * n[0] + v.into_inner() * n[1] + torus.axis.into_inner() * n[2];
+        let turn = [h * n[1] - y * n[2], x * n[2] - h * n[0]];
+        let row = [-normal.x, -normal.y, -normal.z, turn[0], turn[1], -outward, -1.0];
         (tube - torus.minor_radius, row.into())
     }
 

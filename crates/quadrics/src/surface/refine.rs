@@ -52,11 +52,11 @@ fn normal_equations<const N: usize, M: Local<N>>(
     for (i, &point) in points.iter().enumerate() {
         let weight = weights.get(i).copied().unwrap_or(1.0);
         let (residual, row) = model.residual(point);
-        for a in 0..N {
-            let scaled = weight * row[a];
-            gradient[a] += scaled * residual;
-            for b in 0..=a {
-                matrix[(a, b)] += scaled * row[b];
+        for b in 0..N {
+            let scaled = weight * row[b];
+            gradient[b] += scaled * residual;
+            for a in b..N {
+                matrix[(a, b)] += scaled * row[a];
             }
         }
     }
