@@ -135,7 +135,7 @@ fn distances(surface: &Surface, points: &[Point]) -> Vec<f64> {
         Surface::Cylinder(s) => all(s, points),
         Surface::Cone(s) => all(s, points),
         Surface::Torus(s) => all(s, points),
-        Surface::Quadric(s) => all(s, points),
+        Surface::Quadric(s) => all(&s.principal(), points),
         Surface::FreeForm => vec![0.0; points.len()],
     }
 }

@@ -40,7 +40,7 @@ pub fn face_cost(scene: &Scene, model: &Model, face: usize) -> f64 {
         Surface::Cylinder(s) => cost(scene, s, model.side, face),
         Surface::Cone(s) => cost(scene, s, model.side, face),
         Surface::Torus(s) => cost(scene, s, model.side, face),
-        Surface::Quadric(s) => cost(scene, s, model.side, face),
+        Surface::Quadric(s) => cost(scene, &s.principal(), model.side, face),
         Surface::FreeForm => FREE_FORM,
     }
 }

@@ -111,7 +111,7 @@ fn explains(scene: &Scene, model: &Model, face: usize, near: f64, turn: f64) -> 
         Surface::Cylinder(s) => of(scene, s, model.side, face, near, turn),
         Surface::Cone(s) => of(scene, s, model.side, face, near, turn),
         Surface::Torus(s) => of(scene, s, model.side, face, near, turn),
-        Surface::Quadric(s) => of(scene, s, model.side, face, near, turn),
+        Surface::Quadric(s) => of(scene, &s.principal(), model.side, face, near, turn),
         Surface::FreeForm => true,
     }
 }

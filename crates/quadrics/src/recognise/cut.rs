@@ -3,12 +3,20 @@
 /// A flow network between a source and a sink, built anew for every cut.
 #[derive(Default)]
 pub struct Cut {
+    /// First arc of every node.
     heads: Vec<u32>,
-    next: Vec<u32>,
-    to: Vec<u32>,
-    capacity: Vec<f64>,
+    /// Every arc is followed by its reverse.
+    arcs: Vec<Arc>,
     level: Vec<u32>,
     cursor: Vec<u32>,
+}
+
+/// What flows between two nodes.
+struct Arc {
+    to: u32,
+    /// The next arc of the node that it comes from.
+    next: u32,
+    capacity: f64,
 }
 
 const NONE: u32 = u32::MAX;
@@ -40,10 +48,9 @@ impl Cut {
 
     fn arc(&mut self, from: u32, to: u32, forth: f64, back: f64) {
         for (from, to, capacity) in [(from, to, forth), (to, from, back)] {
-            self.next.push(self.heads[from as usize]);
-            self.heads[from as usize] = self.to.len() as u32;
-            self.to.push(to);
-            self.capacity.push(capacity);
+            let next = self.heads[from as usize];
+            self.heads[from as usize] = self.arcs.len() as u32;
+            self.arcs.push(Arc { to, next, capacity });
         }
     }
 
@@ -51,65 +58,74 @@ impl Cut {
     pub fn solve(mut self) -> Vec<bool> {
         while self.levels() {
             self.cursor.clone_from(&self.heads);
-            while self.augment() > LEAST {}
+            self.augment();
         }
         self.level[2..].iter().map(|&level| level == NONE).collect()
     }
 
-    /// Breadth-first levels from the source; whether the sink is reached.
+    /// Breadth-first levels from the source, up to the sink; whether it is reached.
     fn levels(&mut self) -> bool {
         self.level.clear();
         self.level.resize(self.heads.len(), NONE);
         self.level[SOURCE as usize] = 0;
         let mut queue = vec![SOURCE];
         let mut at = 0;
-        while at < queue.len() {
+        while at < queue.len() && self.level[SINK as usize] == NONE {
             let node = queue[at];
             at += 1;
-            let mut arc = self.heads[node as usize];
-            while arc != NONE {
-                let to = self.to[arc as usize] as usize;
-                if self.capacity[arc as usize] > LEAST && self.level[to] == NONE {
-                    self.level[to] = self.level[node as usize] + 1;
-                    queue.push(to as u32);
+            let mut next = self.heads[node as usize];
+            while next != NONE {
+                let arc = &self.arcs[next as usize];
+                if arc.capacity > LEAST && self.level[arc.to as usize] == NONE {
+                    self.level[arc.to as usize] = self.level[node as usize] + 1;
+                    queue.push(arc.to);
                 }
-                arc = self.next[arc as usize];
+                next = arc.next;
             }
         }
         self.level[SINK as usize] != NONE
     }
 
-    /// Pushes flow along one path of rising levels, depth first without recursion.
-    fn augment(&mut self) -> f64 {
+    /// Pushes flow along paths of rising levels until none is left, depth first without recursion.
+    fn augment(&mut self) {
         let mut path: Vec<u32> = Vec::new();
         let mut node = SOURCE;
         loop {
             if node == SINK {
-                let flow =
-                    path.iter().map(|&a| self.capacity[a as usize]).fold(f64::INFINITY, f64::min);
-                for &arc in &path {
-                    self.capacity[arc as usize] -= flow;
-                    self.capacity[arc as usize ^ 1] += flow;
-                }
-                return flow;
-            }
-            let arc = self.cursor[node as usize];
-            if arc == NONE {
-                // A dead end: step back and never come here again.
-                let Some(last) = path.pop() else { return 0.0 };
-                node = self.to[last as usize ^ 1];
-                self.cursor[node as usize] = self.next[last as usize];
+                let full = self.push(&path);
+                node = self.arcs[path[full] as usize ^ 1].to;
+                path.truncate(full);
                 continue;
             }
-            let to = self.to[arc as usize];
-            let rises = self.level[to as usize] == self.level[node as usize].wrapping_add(1);
-            if rises && self.capacity[arc as usize] > LEAST {
-                path.push(arc);
-                node = to;
+            let next = self.cursor[node as usize];
+            if next == NONE {
+                // A dead end: step back and never come here again.
+                let Some(last) = path.pop() else { return };
+                node = self.arcs[last as usize ^ 1].to;
+                self.cursor[node as usize] = self.arcs[last as usize].next;
+                continue;
+            }
+            let arc = &self.arcs[next as usize];
+            let rises = self.level[arc.to as usize] == self.level[node as usize].wrapping_add(1);
+            if rises && arc.capacity > LEAST {
+                path.push(next);
+                node = arc.to;
             } else {
-                self.cursor[node as usize] = self.next[arc as usize];
+                self.cursor[node as usize] = arc.next;
             }
         }
+    }
+
+    /// Pushes what a path lets through; the place of the first arc that it fills.
+    fn push(&mut self, path: &[u32]) -> usize {
+        let capacity = |&arc: &u32| self.arcs[arc as usize].capacity;
+        let flow = path.iter().map(capacity).fold(f64::INFINITY, f64::min);
+        for &arc in path {
+            self.arcs[arc as usize].capacity -= flow;
+            self.arcs[arc as usize ^ 1].capacity += flow;
+        }
+        let full = path.iter().position(|&arc| self.arcs[arc as usize].capacity <= LEAST);
+        full.unwrap_or(0)
     }
 }
 

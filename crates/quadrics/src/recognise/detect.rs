@@ -350,7 +350,7 @@ fn connected_inliers(
         Surface::Cylinder(s) => inliers_of(scene, s, candidate, labels, growth, seen),
         Surface::Cone(s) => inliers_of(scene, s, candidate, labels, growth, seen),
         Surface::Torus(s) => inliers_of(scene, s, candidate, labels, growth, seen),
-        Surface::Quadric(s) => inliers_of(scene, s, candidate, labels, growth, seen),
+        Surface::Quadric(s) => inliers_of(scene, &s.principal(), candidate, labels, growth, seen),
         Surface::FreeForm => Vec::new(),
     }
 }

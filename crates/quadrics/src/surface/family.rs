@@ -244,6 +244,7 @@ struct Held<const N: usize> {
 }
 
 impl<const N: usize> Local<N> for Held<N> {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, N>) {
         let p = self.frame.inverse_transform_point(&point).coords;
         let (distance, normal, row) = taubin_distance(&self.coefficients, p);

@@ -3,10 +3,12 @@
 //! A step is a shift along the normal `m` at the foot `f`, a rotation about it, and a change of
 //! curvature. Where a surface moves with velocity `v(x)`, the distance of `x` changes by `-n · v`,
 //! `n` being the normal at the foot of `x`; for a rotation `n · (ω × (x - f)) = ω · ((x - f) × n)`.
+//! Both are taken in a right-handed frame along the axis, where surfaces of revolution are plane.
 
 use nalgebra::{SVector, UnitQuaternion};
 
 use super::refine::Local;
+use super::torus::from_spine;
 use super::{Cone, Cylinder, Plane, Shape, Sphere, Surface, Torus};
 use crate::math::{Point, Unit, Vector, frame};
 
@@ -42,6 +44,7 @@ impl LocalPlane {
 }
 
 impl Local<3> for LocalPlane {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 3>) {
         let x = point - self.foot;
         let torque = x.cross(&self.normal);
@@ -90,6 +93,7 @@ impl LocalSphere {
 }
 
 impl Local<4> for LocalSphere {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 4>) {
         let y = point - self.center;
         let length = y.norm();
@@ -146,18 +150,21 @@ impl LocalCylinder {
 }
 
 impl Local<5> for LocalCylinder {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 5>) {
-        let y = point - self.center;
-        let radial = y - self.axis.into_inner() * self.axis.dot(&y);
-        let length = radial.norm();
-        let n = radial / length.max(f64::MIN_POSITIVE);
-        let torque = (point - self.foot).cross(&n);
+        // In the frame of normal, across and axis.
+        let offset = point - self.foot;
+        let (x, y, z) =
+            (self.normal.dot(&offset), self.across.dot(&offset), self.axis.dot(&offset));
+        let length = ((x + self.radius).powi(2) + y * y).sqrt();
+        let scale = 1.0 / length.max(f64::MIN_POSITIVE);
+        let n = [(x + self.radius) * scale, y * scale];
         let row = [
-            -n.dot(&self.normal),
-            -self.axis.dot(&torque),
-            -self.across.dot(&torque),
-            -self.normal.dot(&torque),
-            self.radius * self.radius * (1.0 - n.dot(&self.normal)),
+            -n[0],
+            y * n[0] - x * n[1],
+            -z * n[0],
+            z * n[1],
+            self.radius * self.radius * (1.0 - n[0]),
         ];
         (length - self.radius, row.into())
     }
@@ -188,6 +195,11 @@ pub(super) struct LocalCone {
     center: Point,
     sine: f64,
     cosine: f64,
+    /// The tangents at the foot: across the generator and along it.
+    across: Vector,
+    along: Vector,
+    /// From the axis towards the normal, at right angles.
+    outward: Vector,
 }
 
 /// Cones closer to a cylinder or a plane than this (sine or cosine of the half angle) are given up.
@@ -214,15 +226,12 @@ impl LocalCone {
         let sine = normal.dot(&axis);
         let cosine = (1.0 - sine * sine).max(0.0).sqrt();
         let center = foot - normal.into_inner() / curvature;
-        (cosine > CONE_LIMIT).then_some(Self {
-            foot,
-            normal,
-            axis,
-            curvature,
-            center,
-            sine,
-            cosine,
-        })
+        let across = axis.cross(&normal) / cosine;
+        let along = normal.cross(&across);
+        let outward = (normal.into_inner() - axis.into_inner() * sine) / cosine;
+        let cone =
+            Self { foot, normal, axis, curvature, center, sine, cosine, across, along, outward };
+        (cosine > CONE_LIMIT).then_some(cone)
     }
 
     pub(super) fn surface(&self) -> Option<Surface> {
@@ -236,40 +245,37 @@ impl LocalCone {
 }
 
 impl Local<6> for LocalCone {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 6>) {
-        let (axis, m) = (self.axis.into_inner(), self.normal.into_inner());
-        let y = point - self.center;
-        let h = axis.dot(&y);
-        let radial = y - axis * h;
-        let r = radial.norm().max(f64::MIN_POSITIVE);
-        let n = radial * (self.cosine / r) + axis * self.sine;
-        let distance = r * self.cosine + self.sine * h - 1.0 / self.curvature;
-        let torque = (point - self.foot).cross(&n);
-        let across = axis.cross(&m) / self.cosine;
-        let along = m.cross(&across);
-        // The axis turns about the centre, towards the normal: the half angle changes alone.
-        let q = (m - axis * self.sine) / self.cosine;
-        let opening =
-            -self.sine * r + self.cosine * h + (self.sine - self.cosine * h / r) * q.dot(&y);
+        // In the frame of outward, across and axis.
+        let offset = point - self.center;
+        let (x, y, h) =
+            (self.outward.dot(&offset), self.across.dot(&offset), self.axis.dot(&offset));
+        let (sine, cosine, radius) = (self.sine, self.cosine, 1.0 / self.curvature);
+        let r = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
+        let distance = r * cosine + sine * h - radius;
+        let scale = cosine / r;
+        let n = [x * scale, y * scale, sine];
+        let from_foot = Vector::new(x - cosine * radius, y, h - sine * radius);
+        let torque = from_foot.cross(&Vector::from(n));
+        let lift = 1.0 - (cosine * n[0] + sine * sine);
         let row = [
-            -n.dot(&m),
-            -along.dot(&torque),
-            -across.dot(&torque),
-            -m.dot(&torque),
-            (1.0 - n.dot(&m)) / (self.curvature * self.curvature),
-            opening,
+            lift - 1.0,
+            sine * torque.x - cosine * torque.z,
+            -torque.y,
+            -cosine * torque.x - sine * torque.z,
+            lift * radius * radius,
+            // The axis turns about the centre, towards the normal: the half angle changes alone.
+            cosine * h - sine * r + (sine - h * scale) * x,
         ];
         (distance, row.into())
     }
 
     fn moved(&self, step: &SVector<f64, 6>) -> Option<Self> {
         let (axis, m) = (self.axis.into_inner(), self.normal.into_inner());
-        let across = axis.cross(&m) / self.cosine;
-        let along = m.cross(&across);
         let foot = self.foot + m * step[0];
-        let turn = rotation(along * step[1] + across * step[2] + m * step[3]);
-        let q = (m - axis * self.sine) / self.cosine;
-        let axis = Unit::try_new(axis + q * step[5].clamp(-0.5, 0.5), 0.1)?;
+        let turn = rotation(self.along * step[1] + self.across * step[2] + m * step[3]);
+        let axis = Unit::try_new(axis + self.outward * step[5].clamp(-0.5, 0.5), 0.1)?;
         Self::at(foot, turn * self.normal, turn * axis, self.curvature + step[4])
     }
 }
@@ -291,26 +297,22 @@ impl LocalTorus {
 }
 
 impl Local<7> for LocalTorus {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 7>) {
+        // In the frame of the tangents and the axis.
         let torus = &self.torus;
-        let axis = torus.axis.into_inner();
-        let y = point - torus.center;
-        let h = axis.dot(&y);
-        let radial = y - axis * h;
-        let r = radial.norm().max(f64::MIN_POSITIVE);
-        let outward = radial / r;
-        let tube = (r - torus.major_radius).hypot(h);
-        let n = (outward * (r - torus.major_radius) + axis * h) / tube.max(f64::MIN_POSITIVE);
-        let torque = y.cross(&n);
-        let row = [
-            -n.x,
-            -n.y,
-            -n.z,
-            -self.tangents.0.dot(&torque),
-            -self.tangents.1.dot(&torque),
-            -n.dot(&outward),
-            -1.0,
-        ];
+        let offset = point - torus.center;
+        let (u, v) = (&self.tangents.0, &self.tangents.1);
+        let (x, y, h) = (u.dot(&offset), v.dot(&offset), torus.axis.dot(&offset));
+        let r = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
+        let across = r - torus.major_radius;
+        let tube = from_spine(across, h);
+        let outward = across / tube.max(f64::MIN_POSITIVE);
+        let scale = outward / r;
+        let n = [x * scale, y * scale, h / tube.max(f64::MIN_POSITIVE)];
+        let normal = u.into_inner() * n[0] + v.into_inner() * n[1] + torus.axis.into_inner() * n[2];
+        let turn = [h * n[1] - y * n[2], x * n[2] - h * n[0]];
+        let row = [-normal.x, -normal.y, -normal.z, turn[0], turn[1], -outward, -1.0];
         (tube - torus.minor_radius, row.into())
     }
 

@@ -88,17 +88,30 @@ impl Quadric {
         Self::from_parts(constant_there, linear_there, form_there)
     }
 
+    /// Ready to be asked about many points.
+    pub fn principal(&self) -> Principal<'_> {
+        let eigen = self.parts().2.symmetric_eigen();
+        Principal { quadric: self, curvatures: eigen.eigenvalues, axes: eigen.eigenvectors }
+    }
+}
+
+/// A quadric with the principal axes of its form, which the way to the nearest point goes along.
+pub struct Principal<'a> {
+    quadric: &'a Quadric,
+    curvatures: Vector,
+    axes: Matrix3<f64>,
+}
+
+impl Principal<'_> {
     /// The nearest point, by Newton's method on the multiplier inside a shrinking bracket.
     ///
     /// `x(t) = (I + tA)⁻¹ (p - t b/2)`; where `I + tA` is positive definite `f(x(t))` falls with
     /// `t`, and its root is the globally nearest point.
     fn foot(&self, point: Point) -> Option<Point> {
-        let (_, _, form) = self.parts();
-        let eigen = form.symmetric_eigen();
-        let (values, axes) = (eigen.eigenvalues, eigen.eigenvectors);
+        let (values, axes) = (self.curvatures, self.axes);
         // Seen from the point itself, so that parts far from the origin lose no digits.
-        let level = self.value(point);
-        let half = axes.transpose() * self.gradient(point) / 2.0;
+        let level = self.quadric.value(point);
+        let half = axes.transpose() * self.quadric.gradient(point) / 2.0;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for &value in values.iter() {
             if value > 1e-300 {
@@ -147,19 +160,35 @@ impl Quadric {
     }
 }
 
-impl Shape for Quadric {
-    const PARAMETERS: usize = 9;
+impl Shape for Principal<'_> {
+    const PARAMETERS: usize = Quadric::PARAMETERS;
 
     fn distance(&self, point: Point) -> f64 {
         let far = self.foot(point).map_or(0.0, |foot| (point - foot).norm());
-        far.copysign(self.value(point))
+        far.copysign(self.quadric.value(point))
     }
 
     fn normal(&self, point: Point) -> Option<Unit> {
-        Unit::try_new(self.gradient(self.foot(point)?), f64::MIN_POSITIVE)
+        Unit::try_new(self.quadric.gradient(self.foot(point)?), f64::MIN_POSITIVE)
     }
 
     fn project(&self, point: Point) -> Option<Point> {
         self.foot(point)
+    }
+}
+
+impl Shape for Quadric {
+    const PARAMETERS: usize = 9;
+
+    fn distance(&self, point: Point) -> f64 {
+        self.principal().distance(point)
+    }
+
+    fn normal(&self, point: Point) -> Option<Unit> {
+        self.principal().normal(point)
+    }
+
+    fn project(&self, point: Point) -> Option<Point> {
+        self.principal().project(point)
     }
 }

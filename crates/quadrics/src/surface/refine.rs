@@ -9,7 +9,7 @@ use nalgebra::{Const, DimMin, SMatrix, SVector, UnitQuaternion};
 
 use super::family::Family;
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
-use super::{Quadric, Surface};
+use super::{Quadric, Shape, Surface};
 use crate::math::{Point, Similarity, Vector};
 
 /// A fitted surface and how well it fits.
@@ -41,29 +41,27 @@ const PROGRESS: f64 = 1e-9;
 const DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 8.0;
 
-/// The normal equations of a model at some points: `JᵀJ`, `Jᵀr`, cost.
+/// The normal equations of a model at some points: `JᵀJ` and `Jᵀr`.
 fn normal_equations<const N: usize, M: Local<N>>(
     model: &M,
     points: &[Point],
     weights: &[f64],
-) -> (SMatrix<f64, N, N>, SVector<f64, N>, f64) {
+) -> (SMatrix<f64, N, N>, SVector<f64, N>) {
     let mut matrix = SMatrix::<f64, N, N>::zeros();
     let mut gradient = SVector::<f64, N>::zeros();
-    let mut cost = 0.0;
     for (i, &point) in points.iter().enumerate() {
         let weight = weights.get(i).copied().unwrap_or(1.0);
         let (residual, row) = model.residual(point);
-        cost += weight * residual * residual;
-        for a in 0..N {
-            let scaled = weight * row[a];
-            gradient[a] += scaled * residual;
-            for b in 0..=a {
-                matrix[(a, b)] += scaled * row[b];
+        for b in 0..N {
+            let scaled = weight * row[b];
+            gradient[b] += scaled * residual;
+            for a in b..N {
+                matrix[(a, b)] += scaled * row[a];
             }
         }
     }
     matrix.fill_upper_triangle_with_lower_triangle();
-    (matrix, gradient, cost)
+    (matrix, gradient)
 }
 
 /// Covariance of the local unknowns for residuals of unit variance: `(JᵀJ)⁻¹`.
@@ -76,7 +74,7 @@ pub(super) fn covariance<const N: usize, M: Local<N>>(
 where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
-    let (matrix, _, _) = normal_equations(model, points, &[]);
+    let (matrix, _) = normal_equations(model, points, &[]);
     // Curvatures and angles have different units: the diagonal makes them comparable.
     let scale = matrix.diagonal().map(|value| 1.0 / value.sqrt());
     if !scale.iter().all(|value| value.is_finite()) {
@@ -111,8 +109,12 @@ where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let mut damping = DAMPING;
-    let (mut matrix, mut gradient, mut cost) = normal_equations(&model, points, weights);
+    let mut cost = cost_of(&model, points, weights);
+    // Made where a step needs them: the last model takes none.
+    let mut equations = None;
     for _ in 0..iterations {
+        let (matrix, gradient) =
+            *equations.get_or_insert_with(|| normal_equations(&model, points, weights));
         let mut damped = matrix;
         let floor = 1e-15 * matrix.diagonal().max();
         for i in 0..N {
@@ -122,14 +124,12 @@ where
         let trial = candidate.map(|candidate| (cost_of(&candidate, points, weights), candidate));
         match trial {
             Some((lower, candidate)) if lower <= cost => {
-                let gained = cost - lower;
-                model = candidate;
+                let settled = cost - lower <= PROGRESS * cost;
+                (model, cost, equations) = (candidate, lower, None);
                 damping = (damping / DAMPING_FACTOR).max(1e-12);
-                if gained <= PROGRESS * cost {
-                    cost = lower;
+                if settled {
                     break;
                 }
-                (matrix, gradient, cost) = normal_equations(&model, points, weights);
             }
             _ => {
                 damping *= DAMPING_FACTOR;
@@ -252,6 +252,7 @@ pub(super) fn taubin_distance(c: &SVector<f64, 10>, p: Vector) -> (f64, Vector, 
 }
 
 impl Local<10> for LocalQuadric {
+    #[inline]
     fn residual(&self, point: Point) -> (f64, SVector<f64, 10>) {
         let p = (point - self.centre) / self.scale;
         let (distance, _, row) = taubin_distance(&self.coefficients, p);
@@ -289,7 +290,9 @@ fn refine_quadric(
         held => held.refine(quadric, points, weights, iterations)?,
     };
     let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
-    let square = |p: &Point| surface.distance(*p).map_or(0.0, |d| d * d);
+    let fitted = surface.quadric()?;
+    let principal = fitted.principal();
+    let square = |p: &Point| principal.distance(*p).powi(2);
     let cost = points.iter().enumerate().map(|(i, p)| weight(i) * square(p)).sum();
     Some((surface, cost))
 }

@@ -86,7 +86,7 @@ pub fn misfit(surface: &Surface, points: &[Point], sigma: f64) -> f64 {
         Surface::Cylinder(s) => mean(s, points, sigma),
         Surface::Cone(s) => mean(s, points, sigma),
         Surface::Torus(s) => mean(s, points, sigma),
-        Surface::Quadric(s) => mean(s, points, sigma),
+        Surface::Quadric(s) => mean(&s.principal(), points, sigma),
         Surface::FreeForm => CAP,
     }
 }

@@ -43,10 +43,16 @@ impl Shape for Torus {
         let offset = point - self.center;
         let height = self.axis.dot(&offset);
         let radius = (offset.norm_squared() - height * height).max(0.0).sqrt();
-        (radius - self.major_radius).hypot(height) - self.minor_radius
+        from_spine(radius - self.major_radius, height) - self.minor_radius
     }
 
     fn normal(&self, point: Point) -> Option<Unit> {
         Unit::try_new(self.off_spine(point)?, f64::MIN_POSITIVE)
     }
+}
+
+/// Distance from the spine, across and along the axis. `hypot` would guard against an overflow that
+/// lengths do not reach, for more than all the rest costs.
+pub(super) fn from_spine(across: f64, along: f64) -> f64 {
+    (across * across + along * along).sqrt()
 }
