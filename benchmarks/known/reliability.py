@@ -8,11 +8,10 @@ The lines come from `judged.py`. Right is what counts for F1: overlap, type and 
 
 from __future__ import annotations
 
-import argparse
-import csv
-import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+
+import rows
 
 from quadrics.reproduce.plot import Curve, plot
 
@@ -24,37 +23,33 @@ COLUMNS = ["set", "variant", "above", "up_to", "regions", "mean_confidence", "ri
 
 def main() -> None:
     """Print and write the tables."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("runs", type=Path, nargs="+", help="lines of judged.py")
-    parser.add_argument("--record", type=Path, help="CSV file")
+    parser = rows.parser(__doc__)
     parser.add_argument("--plot", type=Path, help="SVG file")
     options = parser.parse_args()
-    runs = [json.loads(line) for path in options.runs for line in path.open(encoding="utf-8")]
-    rows = table(runs)
-    for row in rows:
-        print("  ".join(f"{row[key]:>9}" for key in COLUMNS))
-    if options.record:
-        with options.record.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+    runs = rows.read(options.runs)
+    lines = table(runs)
+    rows.show(lines, COLUMNS)
+    rows.record(options.record, lines, COLUMNS)
     if options.plot:
         options.plot.write_text(drawing(runs) + "\n", encoding="utf-8")
 
 
 def table(runs: Sequence[dict]) -> list[dict[str, object]]:
     """Count all regions and the sure ones by set and variant, then all by confidence."""
-    rows = []
+    lines = []
     for key in dict.fromkeys((run["set"], run["variant"]) for run in runs):
         own = regions(run for run in runs if (run["set"], run["variant"]) == key)
-        rows += [line(*key, own, low, 1.0) for low in (-1.0, SURE)]
+        lines += [line(*key, own, low, 1.0) for low in (-1.0, SURE)]
     every = regions(runs)
-    rows += [line("all", "all", every, low, 1.0) for low in (-1.0, SURE)]
-    rows += [
-        line("all", "all", every, low, high)
-        for low, high in zip([-1.0, *BINS[1:-1]], BINS[1:], strict=True)
-    ]
-    return [row for row in rows if row["regions"]]
+    lines += [line("all", "all", every, low, 1.0) for low in (-1.0, SURE)]
+    return [line for line in lines if line["regions"]] + by_confidence(every)
+
+
+def by_confidence(every: Sequence[dict]) -> list[dict[str, object]]:
+    """Count the regions of every bin that has some."""
+    bounds = zip([-1.0, *BINS[1:-1]], BINS[1:], strict=True)
+    lines = [line("all", "all", every, low, high) for low, high in bounds]
+    return [line for line in lines if line["regions"]]
 
 
 def regions(runs: Iterable[dict]) -> list[dict]:
@@ -81,11 +76,7 @@ def drawing(runs: Sequence[dict]) -> str:
     curves = []
     for variant in ["all", *dict.fromkeys(run["variant"] for run in runs)]:
         own = regions(run for run in runs if variant in ("all", run["variant"]))
-        bins = [
-            line("", "", own, low, high)
-            for low, high in zip([-1.0, *BINS[1:-1]], BINS[1:], strict=True)
-        ]
-        bins = [row for row in bins if row["regions"]]
+        bins = by_confidence(own)
         x = [row["mean_confidence"] for row in bins]
         curves.append(Curve(variant, x, [row["right"] for row in bins]))
     curves.append(Curve("what it says", [0, 1], [0, 1], dashed=True))

@@ -7,10 +7,7 @@ The lines come from `judged.py --seeds 0 1 2 ...`.
 
 from __future__ import annotations
 
-import argparse
-import csv
-import json
-from pathlib import Path
+import rows
 
 COLUMNS = ["set", "name", "variant", "seeds", "regions_least", "regions_most"]
 COLUMNS += ["f1_least", "f1_most", "hd_least", "hd_most"]
@@ -20,20 +17,14 @@ AGREES = 0.01
 
 def main() -> None:
     """Print the shapes whose seeds disagree, and write all."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("runs", type=Path, nargs="+", help="lines of judged.py")
-    parser.add_argument("--record", type=Path, help="CSV file")
-    options = parser.parse_args()
+    options = rows.parser(__doc__).parse_args()
     groups: dict[tuple[str, str, str], list[dict]] = {}
-    for path in options.runs:
-        for run in map(json.loads, path.open(encoding="utf-8")):
-            groups.setdefault((run["set"], run["name"], run["variant"]), []).append(run)
-    rows = [row(*key, runs) for key, runs in groups.items()]
-    for one in rows:
-        if not agrees(one):
-            print("  ".join(f"{one[key]}" for key in COLUMNS))
-    for group, variant in dict.fromkeys((one["set"], one["variant"]) for one in rows):
-        own = [one for one in rows if (one["set"], one["variant"]) == (group, variant)]
+    for run in rows.read(options.runs):
+        groups.setdefault((run["set"], run["name"], run["variant"]), []).append(run)
+    table = [row(*key, runs) for key, runs in groups.items()]
+    rows.show([one for one in table if not agrees(one)], COLUMNS)
+    for group, variant in dict.fromkeys((one["set"], one["variant"]) for one in table):
+        own = [one for one in table if (one["set"], one["variant"]) == (group, variant)]
         f1 = [one["f1_most"] - one["f1_least"] for one in own]
         hd = [one["hd_most"] - one["hd_least"] for one in own]
         print(
@@ -41,11 +32,7 @@ def main() -> None:
             f"spread of F1 mean {sum(f1) / len(f1):.3f}, most {max(f1):.3f}; "
             f"of HD mean {sum(hd) / len(hd):.4f}, most {max(hd):.4f}"
         )
-    if options.record:
-        with options.record.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+    rows.record(options.record, table, COLUMNS)
 
 
 def row(group: str, name: str, variant: str, runs: list[dict]) -> dict:

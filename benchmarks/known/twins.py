@@ -8,8 +8,9 @@ NAME_noisy.ply is NAME.ply with its vertices moved; nothing is told of either.
 from __future__ import annotations
 
 import argparse
-import csv
 from pathlib import Path
+
+import rows
 
 import quadrics
 from quadrics.answer import as_answer
@@ -24,12 +25,8 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--record", type=Path, help="CSV file")
     options = parser.parse_args()
-    rows = [compare(noisy) for noisy in sorted(options.folder.glob("*_noisy.ply"))]
-    if options.record:
-        with options.record.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+    table = [compare(noisy) for noisy in sorted(options.folder.glob("*_noisy.ply"))]
+    rows.record(options.record, table, COLUMNS)
 
 
 def compare(noisy: Path) -> dict[str, object]:

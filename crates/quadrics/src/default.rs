@@ -9,8 +9,7 @@ use crate::mesh::Working;
 use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
 use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, subdivide};
-use crate::recognise::assign::{self, Model};
-use crate::recognise::detect::side_of;
+use crate::recognise::assign::{self, models};
 use crate::recognise::{self, Outcome, carry, evidence, moves, scene::Scene};
 use crate::surface::Surface;
 use crate::surface::select::Evidence;
@@ -115,7 +114,8 @@ fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Out
         }
         let normal_sigma = scene.evidence.normal_sigma.max(coarse.evidence.normal_sigma);
         scene.evidence = Evidence { normal_sigma, ..coarse.evidence };
-        let mut models = models(&coarse, &found.labels, found.surfaces);
+        let regions = Regions::new(&found.labels);
+        let mut models = models(&coarse, &regions, found.surfaces.iter());
         let labels = &found.labels;
         let labels = carry::carry(scene, &working.adjacency, &site, labels, &mut models);
         let surfaces: Vec<Surface> = models.iter().map(|model| model.surface.clone()).collect();
@@ -165,8 +165,8 @@ fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<
         Ok(())
     })?;
     context.timed("assign", |_| {
-        let surfaces: Vec<Surface> = fits.into_iter().map(|fit| fit.surface).collect();
-        let mut models = models(scene, &found.labels, surfaces);
+        let regions = Regions::new(&found.labels);
+        let mut models = models(scene, &regions, fits.iter().map(|fit| &fit.surface));
         assign::expand(scene, &models, &mut found.labels);
         assign::connect(scene, &mut models, &mut found.labels);
         moves::tidy(&mut models, &mut found.labels);
@@ -175,11 +175,4 @@ fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<
         found.surfaces = models.into_iter().map(|model| model.surface).collect();
         Ok(())
     })
-}
-
-/// Surfaces with the side of the material.
-fn models(scene: &Scene, labels: &[u32], surfaces: Vec<Surface>) -> Vec<Model> {
-    let regions = Regions::new(labels);
-    let model = |(i, surface)| Model { side: side_of(scene, &surface, regions.faces(i)), surface };
-    surfaces.into_iter().enumerate().map(model).collect()
 }

@@ -16,8 +16,7 @@ use crate::error::Result;
 use crate::math::{Point, Similarity};
 use crate::mesh::{Adjacency, NONE};
 use crate::partition::Regions;
-use crate::recognise::assign::Model;
-use crate::recognise::detect::side_of;
+use crate::recognise::assign::models;
 use crate::recognise::scene::{Marks, Scene};
 use crate::result::{Region, Side};
 use crate::surface::{Cylinder, Scatter, Surface, centroid, uncertainty};
@@ -67,7 +66,7 @@ pub fn describe(
 ) -> Described {
     let regions = Regions::new(labels);
     let neighbours = neighbours(labels, scene.adjacency, regions.len());
-    let models = models(scene, &regions, found);
+    let models = models(scene, &regions, found.iter().map(|found| &found.surface));
     let reader = Reader { scene, labels, models: &models };
     let mut described = Described::default();
     let mut angles = Vec::new();
@@ -93,15 +92,6 @@ pub fn describe(
     }
     described.normal_deg = rayleigh(&mut angles);
     described
-}
-
-/// The surfaces of the regions, with the side of the material.
-fn models(scene: &Scene, regions: &Regions, found: &[Recognised]) -> Vec<Model> {
-    let model = |(i, found): (usize, &Recognised)| Model {
-        side: side_of(scene, &found.surface, regions.faces(i)),
-        surface: found.surface.clone(),
-    };
-    found.par_iter().enumerate().map(model).collect()
 }
 
 /// Everything of one region but its place among the others, and the angles of its face normals.

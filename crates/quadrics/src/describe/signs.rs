@@ -1,17 +1,15 @@
 //! Signs by which a region that is not one surface of the part is told, without knowing the part.
 
 use crate::mesh::NONE;
-use crate::recognise::assign::{Model, face_cost};
+use crate::recognise::assign::{Model, NORMAL_CAP, face_cost};
 use crate::recognise::scene::{Marks, Scene};
-use crate::surface::select::{self, CAP};
+use crate::surface::select;
 use crate::surface::{Shape, Surface};
 
 /// Vertices that are looked at.
 const SAMPLES: usize = 400;
 /// Two surfaces explain a face alike when it costs at most so much more on one of them, in nats.
 const ALIKE: f64 = 1.0;
-/// The squared deviation of a face's normal counts up to so many nats, as in dividing the faces.
-const NORMAL_CAP: f64 = 6.0;
 
 /// What a region shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,11 +70,11 @@ impl Reader<'_> {
             Surface::Cylinder(s) => self.normals(s, *side, faces),
             Surface::Cone(s) => self.normals(s, *side, faces),
             Surface::Torus(s) => self.normals(s, *side, faces),
-            Surface::Quadric(s) => self.normals(s, *side, faces),
+            Surface::Quadric(s) => self.normals(&s.principal(), *side, faces),
             Surface::FreeForm => return None,
         };
         let points = self.scene.samples(faces, SAMPLES, marks).points;
-        let misfit = select::misfit(surface, &points, self.scene.evidence.sigma).min(CAP);
+        let misfit = select::misfit(surface, &points, self.scene.evidence.sigma);
         let overlap = self.overlap(id as u32, faces, marks);
         Some(Signs { misfit, facing, turn, overlap, cost: select::cost(surface) })
     }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::cut::Cut;
 use super::scene::{Marks, Scene};
-use crate::partition::{UNLABELLED, components};
+use crate::partition::{Regions, UNLABELLED, components};
 use crate::surface::{Shape, Surface};
 
 /// A surface in the partition.
@@ -20,8 +20,39 @@ pub struct Model {
     pub side: f64,
 }
 
+impl Model {
+    /// A surface as some faces see it.
+    pub fn new(scene: &Scene, surface: Surface, faces: &[u32]) -> Self {
+        Self { side: side_of(scene, &surface, faces), surface }
+    }
+}
+
+/// The surfaces of all regions, as their faces see them.
+pub fn models<'a>(
+    scene: &Scene,
+    regions: &Regions,
+    surfaces: impl Iterator<Item = &'a Surface>,
+) -> Vec<Model> {
+    let pairs = regions.iter().zip(surfaces);
+    pairs.map(|(faces, surface)| Model::new(scene, surface.clone(), faces)).collect()
+}
+
+/// +1 where the faces' normals agree with the surface's.
+pub fn side_of(scene: &Scene, surface: &Surface, faces: &[u32]) -> f64 {
+    let step = (faces.len() / 64).max(1);
+    let agreement: f64 = faces
+        .iter()
+        .step_by(step)
+        .filter_map(|&f| {
+            let normal = surface.normal(scene.geometry.barycentres[f as usize])?;
+            Some(normal.dot(&scene.normals[f as usize]))
+        })
+        .sum();
+    if agreement < 0.0 { -1.0 } else { 1.0 }
+}
+
 /// The normal term counts at most so much: creases turn filtered normals by any angle.
-const NORMAL_CAP: f64 = 6.0;
+pub const NORMAL_CAP: f64 = 6.0;
 /// What a face of a free-form region costs.
 const FREE_FORM: f64 = 8.0;
 /// Cost of a mean edge between two regions: smooth boundaries under independent noise; less where
@@ -57,10 +88,12 @@ fn cost<S: Shape>(scene: &Scene, shape: &S, side: f64, face: usize) -> f64 {
 pub(super) fn border_cost(scene: &Scene, face: usize, edge: usize) -> f64 {
     let [a, b] = [edge, (edge + 1) % 3].map(|k| scene.mesh.faces[face][k] as usize);
     let length = (scene.mesh.positions[a] - scene.mesh.positions[b]).norm() / scene.edge;
-    let smoothness = match () {
-        () if scene.correlated() => SMOOTHNESS_SCAN,
-        () if scene.noisy() => SMOOTHNESS_NOISY,
-        () => SMOOTHNESS,
+    let smoothness = if scene.correlated() {
+        SMOOTHNESS_SCAN
+    } else if scene.noisy() {
+        SMOOTHNESS_NOISY
+    } else {
+        SMOOTHNESS
     };
     length * smoothness
 }

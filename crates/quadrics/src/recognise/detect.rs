@@ -2,7 +2,7 @@
 
 use rand::RngExt;
 
-use super::assign::{Model, face_cost};
+use super::assign::{Model, face_cost, side_of};
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
@@ -277,20 +277,6 @@ fn adequate(choice: &Choice, faces: usize) -> bool {
 pub fn most_misfit(faces: usize) -> f64 {
     let vertices = faces as f64 / 2.0 + 3.0;
     1.2 + 3.0 * (2.0 / vertices).sqrt()
-}
-
-/// +1 where the faces' normals agree with the surface's.
-pub fn side_of(scene: &Scene, surface: &Surface, faces: &[u32]) -> f64 {
-    let step = (faces.len() / 64).max(1);
-    let agreement: f64 = faces
-        .iter()
-        .step_by(step)
-        .filter_map(|&f| {
-            let normal = surface.normal(scene.geometry.barycentres[f as usize])?;
-            Some(normal.dot(&scene.normals[f as usize]))
-        })
-        .sum();
-    if agreement < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// Alternates between taking the connected faces near the surface and fitting it to them.

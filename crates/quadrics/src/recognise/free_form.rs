@@ -1,11 +1,12 @@
-//! Free-form patches: where many general surfaces touch smoothly, none of them is the surface.
+//! Free-form patches: what no surface explains, and where many general surfaces touch smoothly, so that
+//! none of them is the surface.
 
 use super::assign::Model;
 use super::moves::{LABEL, tidy};
 use super::scene::Scene;
 use crate::math::Point;
 use crate::mesh::NONE;
-use crate::partition::Regions;
+use crate::partition::{Regions, UNLABELLED};
 use crate::surface::Surface;
 use crate::surface::select;
 
@@ -13,6 +14,31 @@ use crate::surface::select;
 const COEFFICIENTS: f64 = 80.0;
 /// Surfaces whose normals differ by less along their border, on the mean, continue each other.
 const TANGENT_DEG: f64 = 6.0;
+
+/// A scan rounds its edges over so many faces on either side: a ribbon that is no wider is no patch
+/// (3 leaves some, 10 is the same).
+const RIBBON: usize = 5;
+
+/// Unlabelled faces that may be a patch: on scans those of what is wider than a ribbon, that is what
+/// erosion leaves, grown again.
+pub fn rest(scene: &Scene, labels: &[u32]) -> Vec<bool> {
+    let rest: Vec<bool> = labels.iter().map(|&label| label == UNLABELLED).collect();
+    if !scene.correlated() {
+        return rest;
+    }
+    let mut wide = rest.clone();
+    for _ in 0..RIBBON {
+        let before = wide.clone();
+        let stays = |face: usize| scene.adjacency.across(face).all(|other| before[other]);
+        (0..wide.len()).filter(|&face| before[face]).for_each(|face| wide[face] = stays(face));
+    }
+    for _ in 0..RIBBON {
+        let before = wide.clone();
+        let comes = |face: usize| scene.adjacency.across(face).any(|other| before[other]);
+        (0..wide.len()).filter(|&face| rest[face]).for_each(|face| wide[face] |= comes(face));
+    }
+    wide
+}
 
 /// Unites general surfaces that continue each other where one free-form patch costs less than all
 /// of them, and what such a patch encloses.

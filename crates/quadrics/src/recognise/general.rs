@@ -6,8 +6,8 @@
 
 use std::cmp::Reverse;
 
-use super::assign::Model;
-use super::detect::{Candidate, Growth, Workspace, grow, most_misfit, side_of};
+use super::assign::{Model, side_of};
+use super::detect::{Candidate, Growth, Workspace, grow, most_misfit};
 use super::merge::{merging, smooth};
 use super::moves::{LABEL, borders, tidy};
 use super::scene::{Gathered, Marks, Scene};
@@ -133,8 +133,7 @@ impl<'s, 'm> Uniter<'s, 'm> {
         let faces: Vec<u32> =
             pieces.iter().flat_map(|&id| self.faces[id as usize].iter().copied()).collect();
         let Some(surface) = self.better(&faces, pieces, models) else { return false };
-        let side = side_of(self.scene, &surface, &faces);
-        models[into as usize] = Model { surface, side };
+        models[into as usize] = Model::new(self.scene, surface, &faces);
         faces.iter().for_each(|&face| labels[face as usize] = into);
         pieces.iter().for_each(|&id| self.faces[id as usize].clear());
         self.faces[into as usize] = faces;

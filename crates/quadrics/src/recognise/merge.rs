@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::assign::Model;
-use super::detect::side_of;
 use super::moves::{LABEL, borders, choose, judge, tidy};
 use super::scene::{Marks, Scene};
 use crate::context::Context;
@@ -157,8 +156,7 @@ impl<'s, 'm> Merger<'s, 'm> {
             merged += 1;
             let Some(Some(union)) = self.unions.remove(&(a, b)) else { continue };
             let faces = self.joined(a, b);
-            let side = side_of(self.scene, &union.choice.surface, &faces);
-            models[a as usize] = Model { surface: union.choice.surface, side };
+            models[a as usize] = Model::new(self.scene, union.choice.surface, &faces);
             self.criteria[a as usize] = union.choice.criterion;
             self.faces[b as usize].iter().for_each(|&f| labels[f as usize] = a);
             self.faces[a as usize] = faces;

@@ -167,7 +167,7 @@ fn start(context: &mut Context, scene: &mut Scene) -> Result<(Labels, Vec<Model>
 fn hand_out(scene: &Scene, mut labels: Labels, found: Vec<Candidate>) -> (Labels, Vec<Model>) {
     let mut models: Vec<Model> =
         found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }).collect();
-    let rest = if scene.correlated() { wide(scene, &labels) } else { unlabelled(&labels) };
+    let rest = free_form::rest(scene, &labels);
     let marks: Vec<u32> = rest.iter().map(|&rest| u32::from(rest)).collect();
     let (component, sizes) = components(&marks, scene.adjacency);
     let mut own = vec![UNLABELLED; sizes.len()];
@@ -184,29 +184,4 @@ fn hand_out(scene: &Scene, mut labels: Labels, found: Vec<Candidate>) -> (Labels
     assign::flood(scene, &models, &mut labels);
     assign::name_the_rest(scene, &mut models, &mut labels);
     (labels, models)
-}
-
-fn unlabelled(labels: &[u32]) -> Vec<bool> {
-    labels.iter().map(|&label| label == UNLABELLED).collect()
-}
-
-/// A scan rounds its edges over so many faces on either side: a ribbon that is no wider is no patch
-/// (3 leaves some, 10 is the same).
-const RIBBON: usize = 5;
-
-/// Unlabelled faces of what is wider than a ribbon: what erosion leaves, grown again.
-fn wide(scene: &Scene, labels: &[u32]) -> Vec<bool> {
-    let rest = unlabelled(labels);
-    let mut wide = rest.clone();
-    for _ in 0..RIBBON {
-        let before = wide.clone();
-        let stays = |face: usize| scene.adjacency.across(face).all(|other| before[other]);
-        (0..wide.len()).filter(|&face| before[face]).for_each(|face| wide[face] = stays(face));
-    }
-    for _ in 0..RIBBON {
-        let before = wide.clone();
-        let comes = |face: usize| scene.adjacency.across(face).any(|other| before[other]);
-        (0..wide.len()).filter(|&face| rest[face]).for_each(|face| wide[face] |= comes(face));
-    }
-    wide
 }

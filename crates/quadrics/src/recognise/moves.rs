@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 
 use super::assign::{Model, face_cost};
-use super::detect::side_of;
 use super::scene::{Marks, Scene};
 use crate::mesh::NONE;
 use crate::partition::{Regions, compact};
@@ -48,8 +47,7 @@ fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
         });
     let choices = simple.into_iter().chain(general.into_iter().flatten());
     if let Some(choice) = choices.min_by(|a, b| a.criterion.total_cmp(&b.criterion)) {
-        model.side = side_of(scene, &choice.surface, faces);
-        model.surface = choice.surface;
+        *model = Model::new(scene, choice.surface, faces);
     }
 }
 

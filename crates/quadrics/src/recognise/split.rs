@@ -8,7 +8,6 @@ use rayon::prelude::*;
 
 use super::assign::{Model, border_cost, face_cost};
 use super::cut::Cut;
-use super::detect::side_of;
 use super::merge::CHANGE;
 use super::moves::{choose, judge, tidy};
 use super::scene::{Marks, Scene};
@@ -93,10 +92,7 @@ impl Region<'_, '_> {
         let mut starts = self.starts(&model.surface);
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         let halves = starts.into_iter().take(TRIED).filter_map(|(_, ball, choice)| {
-            let new = Model {
-                side: side_of(self.scene, &choice.surface, &ball),
-                surface: choice.surface,
-            };
+            let new = Model::new(self.scene, choice.surface, &ball);
             self.divide([model.clone(), new], ball, whole)
         });
         halves.max_by(|a, b| a.gain.total_cmp(&b.gain)).filter(|halves| halves.gain > CHANGE)
@@ -177,8 +173,7 @@ impl Region<'_, '_> {
     fn fit(&mut self, faces: &[u32]) -> Option<(Model, f64)> {
         let Choice { surface, criterion, .. } =
             choose(self.scene, faces, self.scene.evidence, self.marks)?;
-        let side = side_of(self.scene, &surface, faces);
-        Some((Model { surface, side }, criterion))
+        Some((Model::new(self.scene, surface, faces), criterion))
     }
 
     fn judge(&mut self, surface: &Surface, faces: &[u32]) -> Choice {
