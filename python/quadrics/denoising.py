@@ -21,7 +21,8 @@ def denoise(
 
     A vertex inside a region goes to its surface, one between two regions to the curve where their
     surfaces meet, one between three to their point. No vertex moves further than four standard
-    deviations of the noise, no face turns over, free-form regions become smooth.
+    deviations of the noise, nor off what its neighbours allow; no face turns over, free-form
+    regions become smooth.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 //!
 //! Where a chamfer was overlooked the curve of its neighbours lies outside of the part, and the noise
 //! brings just those vertices within reach of it that stick out already. Along a true crease
-//! nearly all vertices reach theirs.
+//! nearly all vertices reach theirs, and stick out of their neighbours by about the same.
 
 use super::Task;
 use super::place::{Goal, Noisy, furthest};
@@ -12,18 +12,45 @@ use crate::math::Point;
 const WITNESSES: usize = 20;
 /// Share of them that reach the curve. Of a curve that is as far off as the noise goes half do.
 const MOST: f64 = 0.6;
+/// Vertices along a crease that tell how far it usually sticks out.
+const FEWEST: usize = 7;
 
 /// Where vertices of several regions would go, if the noise explains it.
 pub struct Creases<'a> {
     pub task: &'a Task<'a>,
     pub regions: &'a [Vec<u32>],
     pub joints: &'a [Option<Point>],
+    pub noisy: &'a [Noisy],
 }
 
 impl Creases<'_> {
-    /// Where a vertex goes: to the joint of its surfaces, or without the one furthest off of those
-    /// that are left, if the crease is believed; else to one of the last two.
-    pub fn settle(&self, vertex: usize, noisy: &Noisy, goals: &[Goal]) -> Point {
+    /// Where a vertex goes, as far as its neighbours allow it.
+    pub fn place(&self, vertex: usize, goals: &[Goal]) -> Point {
+        let noisy = &self.noisy[vertex];
+        let way = self.settle(vertex, noisy, goals) - noisy.position;
+        let way = self.usual_height(vertex).map_or(way, |usual| noisy.held(way, usual));
+        noisy.position + way
+    }
+
+    /// How far vertices like this one are above their neighbours: inside a region not at all, along a
+    /// crease by the median there; `None` where there are too few to tell.
+    fn usual_height(&self, vertex: usize) -> Option<f64> {
+        let at = &self.regions[vertex];
+        if at.len() == 1 {
+            return Some(0.0);
+        }
+        let along = self.along(vertex as u32, at);
+        if at.len() > 2 || along.len() < FEWEST {
+            return None;
+        }
+        let mut heights: Vec<f64> = along.iter().map(|&v| self.noisy[v as usize].height).collect();
+        let middle = heights.len() / 2;
+        Some(*heights.select_nth_unstable_by(middle, f64::total_cmp).1)
+    }
+
+    /// Where its surfaces send a vertex: to their joint, or without the one furthest off to that of
+    /// those that are left, if the crease is believed; else to one of the last two.
+    fn settle(&self, vertex: usize, noisy: &Noisy, goals: &[Goal]) -> Point {
         let (mut at, mut goals) = (self.regions[vertex].clone(), goals.to_vec());
         let mut joint = self.joints[vertex];
         while goals.len() > 1 {

@@ -5,12 +5,14 @@
 //! direction that it acts in (`place`), nor to a curve that most vertices along it are too far from
 //! (`crease`): those go to one of the surfaces, or stay. Where all neighbours lie off a surface on
 //! the same side, it is the surface that errs, and a vertex goes to where its neighbours are on the
-//! mean (`offset`, `shared`).
+//! mean (`offset`, `shared`). A way that leads off what the neighbours allow is cut short (`local`, and
+//! along creases `crease`).
 
 mod crease;
 mod direction;
 mod fold;
 mod free;
+mod local;
 mod offset;
 mod place;
 mod shared;
@@ -92,6 +94,7 @@ pub fn denoise(
     let reach = offsets.reach(&regions, surfaces.len(), sigma);
     let moved = move_all(&task, &regions, &offsets, reach);
     let moved = shared::take_back(&task, moved, &regions, reach);
+    let moved = local::hold(&task, moved, &regions);
     Ok(fold::unfold(&task, moved))
 }
 
@@ -114,11 +117,11 @@ fn move_all(task: &Task, regions: &[Vec<u32>], offsets: &Offsets, reach: f64) ->
         _ => noisy[vertex].joint(&goals[vertex]),
     };
     let joints: Vec<Option<Point>> = vertices.clone().map(joint).collect();
-    let creases = crease::Creases { task, regions, joints: &joints };
+    let creases = crease::Creases { task, regions, joints: &joints, noisy: &noisy };
     vertices
         .map(|vertex| match regions[vertex].is_empty() {
             true => free::place(task, vertex as u32, reach),
-            false => creases.settle(vertex, &noisy[vertex], &goals[vertex]),
+            false => creases.place(vertex, &goals[vertex]),
         })
         .collect()
 }

@@ -27,6 +27,8 @@ const SLACK: f64 = 1.25;
 const ASIDE: f64 = 0.7;
 /// Standard deviations that a vertex may stick out more than before: its neighbours have noise too.
 const MORE: f64 = 0.7;
+/// Standard deviations that a vertex on its surface may stick out: three of the mean of six neighbours.
+const OUT: f64 = 1.2;
 
 /// A vertex, and what the noise explains there.
 #[derive(Clone, Copy)]
@@ -61,9 +63,17 @@ impl Noisy {
     pub fn alone(&self, goals: &[Goal]) -> Point {
         let ways = goals.iter().filter_map(|goal| self.way(goal));
         let best = ways.min_by(|one, other| self.left(*one).total_cmp(&self.left(*other)));
-        let more = if goals.len() > 1 { 0.0 } else { MORE };
-        let way = best.filter(|way| !self.sticks_out(*way, more));
+        let way = best.filter(|way| goals.len() == 1 || !self.sticks_out(*way, 0.0));
         self.position + way.unwrap_or_default()
+    }
+
+    /// A way, cut where it carries the vertex further off its `usual` height above its neighbours
+    /// than their noise explains.
+    pub fn held(&self, way: Vector, usual: f64) -> Vector {
+        let start = self.height - usual;
+        let allowed = start.abs().max(OUT * self.sigma);
+        let cut = (start + way.dot(&self.outward)).abs() - allowed;
+        if cut > 0.0 { way * (1.0 - cut / way.norm().max(cut)) } else { way }
     }
 
     /// Whether a way carries the vertex away from its neighbours, by so many standard deviations.

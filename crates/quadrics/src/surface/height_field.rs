@@ -1,6 +1,6 @@
 //! A height field of second degree over the plane of some points: a small piece of any smooth surface.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
 
 use super::start::{self, Samples};
 use super::{Surface, centroid};
@@ -8,12 +8,18 @@ use crate::math::{Point, Unit, Vector, frame};
 
 /// Heights over a plane as a polynomial of second degree.
 pub struct HeightField {
+    base: Base,
+    coefficients: SVector<f64, 6>,
+    normal_matrix: Cholesky<f64, Const<6>>,
+}
+
+/// The plane under the heights.
+struct Base {
     center: Point,
     axes: [Unit; 2],
     up: Unit,
     /// Root mean square extent of the points: coordinates are divided by it.
     scale: f64,
-    coefficients: SVector<f64, 6>,
 }
 
 impl HeightField {
@@ -22,38 +28,49 @@ impl HeightField {
 
     /// By least squares; `None` without points. A dozen or more are wanted.
     pub fn fit(points: &[Point]) -> Option<Self> {
-        let Surface::Plane(base) =
+        let base = Base::of(points)?;
+        let mut matrix = SMatrix::<f64, 6, 6>::zeros();
+        let mut right = SVector::<f64, 6>::zeros();
+        for p in points {
+            let d = p - base.center;
+            let row = base.row(d);
+            matrix += row * row.transpose();
+            right += row * base.up.dot(&d);
+        }
+        let normal_matrix = matrix.cholesky()?;
+        Some(Self { base, coefficients: normal_matrix.solve(&right), normal_matrix })
+    }
+
+    /// How far a point is above the field, along [`Self::up`].
+    pub fn above(&self, point: Point) -> f64 {
+        let d = point - self.base.center;
+        self.base.up.dot(&d) - self.coefficients.dot(&self.base.row(d))
+    }
+
+    /// Variance of the height below a point, where that of the heights which were fitted is 1.
+    pub fn variance(&self, point: Point) -> f64 {
+        let row = self.base.row(point - self.base.center);
+        row.dot(&self.normal_matrix.solve(&row))
+    }
+
+    /// The direction of heights.
+    pub fn up(&self) -> Unit {
+        self.base.up
+    }
+}
+
+impl Base {
+    fn of(points: &[Point]) -> Option<Self> {
+        let Surface::Plane(plane) =
             start::plane(Samples { points, barycentres: &[], normals: &[] })?
         else {
             return None;
         };
         let center = centroid(points)?;
         let spread = points.iter().map(|p| (p - center).norm_squared()).sum::<f64>();
-        let (u, v) = frame(&base.normal);
+        let (u, v) = frame(&plane.normal);
         let scale = (spread / points.len() as f64).sqrt();
-        let coefficients = SVector::zeros();
-        let mut field = Self { center, axes: [u, v], up: base.normal, scale, coefficients };
-        let mut matrix = SMatrix::<f64, 6, 6>::zeros();
-        let mut right = SVector::<f64, 6>::zeros();
-        for p in points {
-            let d = p - center;
-            let row = field.row(d);
-            matrix += row * row.transpose();
-            right += row * base.normal.dot(&d);
-        }
-        field.coefficients = matrix.cholesky()?.solve(&right);
-        Some(field)
-    }
-
-    /// How far a point is above the field, along [`Self::up`].
-    pub fn above(&self, point: Point) -> f64 {
-        let d = point - self.center;
-        self.up.dot(&d) - self.coefficients.dot(&self.row(d))
-    }
-
-    /// The direction of heights.
-    pub fn up(&self) -> Unit {
-        self.up
+        Some(Self { center, axes: [u, v], up: plane.normal, scale })
     }
 
     fn row(&self, d: Vector) -> SVector<f64, 6> {
