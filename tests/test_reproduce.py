@@ -18,7 +18,7 @@ from quadrics.reproduce.data import Data, Model
 from quadrics.reproduce.figure4 import boundary_length
 from quadrics.reproduce.figure11 import METHODS
 from quadrics.reproduce.page import page
-from quadrics.reproduce.plot import Curve, plot
+from quadrics.reproduce.plot import Curve, _log_ticks, plot
 from quadrics.reproduce.section import Block, Note, Pictures, Section, Table
 from quadrics.reproduce.table2 import compare
 
@@ -65,6 +65,25 @@ def test_a_plot_is_svg_and_keeps_its_points_inside() -> None:
         for line in svg.iter("polyline"):
             points = [tuple(map(float, p.split(","))) for p in line.attrib["points"].split()]
             assert all(0 <= x <= 800 and 0 <= y <= 360 for x, y in points)
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [(3.1e-4, 3.6e-4), (1e-4, 4e-4), (2e-6, 1e-3), (1e-20, 1)]
+)
+def test_ticks_of_a_logarithmic_axis_are_round_and_neither_few_nor_many(
+    low: float, high: float
+) -> None:
+    ticks = _log_ticks(low, high)
+    assert 3 <= len(ticks) <= 8
+    assert all(
+        low <= tick <= high and float(f"{tick:.2g}") == pytest.approx(tick) for tick in ticks
+    )
+
+
+def test_pictures_stand_in_rows_of_one_length() -> None:
+    blank = np.zeros((4, 4, 3), np.uint8)
+    for count, columns in ((1, 1), (4, 4), (5, 5), (6, 3), (8, 4)):
+        assert f"repeat({columns}," in Pictures([("", blank)] * count).html()
 
 
 def test_the_length_of_boundaries_is_that_of_the_edges_between_labels() -> None:

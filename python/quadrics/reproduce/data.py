@@ -43,6 +43,11 @@ class Model:
     mesh: Mesh
     note: str
 
+    @property
+    def caption(self) -> str:
+        """Say what stands for which of the paper's models."""
+        return f"{self.name}: {self.note}."
+
 
 @dataclass(frozen=True, eq=False)
 class Known:

@@ -21,4 +21,4 @@ def make(data: Data) -> Section:
         rows.append((str(tau), str(count), f"{min(result.energy):.3e}", str(theirs)))
         views.append((f"tau = {tau}: {count} regions", region_view(result)))
     table = Table(("tau", "regions", "error", "the paper's regions"), rows)
-    return Section("Figure 1: minimal shape size", [table, Pictures(views), Note(model.note)])
+    return Section("Figure 1: minimal shape size", [table, Pictures(views), Note(model.caption)])

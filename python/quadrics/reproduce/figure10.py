@@ -24,7 +24,7 @@ def make(data: Data) -> Section:
             Curve("QSF", range(len(theirs)), theirs, dashed=True),
         ]
         drawing = plot(curves, "round", "error (eq. 1)", log=True)
-        section.blocks.extend([Drawing(drawing, f"{name}, {regions} regions"), Note(model.note)])
+        section.blocks.extend([Drawing(drawing, f"{name}, {regions} regions"), Note(model.caption)])
     words = "QSF goes on with teleportations after its loop has converged: the jumps in its curve."
     section.blocks.append(Note(words))
     return section

@@ -49,5 +49,5 @@ def make(data: Data) -> Section:
     )
     return Section(
         "Figure 11: other methods",
-        [Table(headings, rows), Note(words), Pictures(views), Note(f"dynamo: {dynamo.note}.")],
+        [Table(headings, rows), Note(words), Pictures(views), Note(dynamo.caption)],
     )

@@ -25,17 +25,18 @@ def make(data: Data) -> Section:
         free = deviation(denoise(noisy, segment(noisy, constraints=False)), part.mesh)
         size = part.mesh.size
         for label, found in (("noisy", before), ("free", free), ("constrained", after)):
-            cells = (f"{value / size:.5f}" for value in (found.hausdorff, found.mean))
+            cells = (f"{value / size:.6f}" for value in (found.hausdorff, found.mean))
             rows.append((part.name if found is before else "", label, *cells))
         if not pictures:
             most = float(before.of_vertex.max())
+            scale = f"white: 0, black: {most / size:.4f} of the size"
             views = [
                 ("clean", plain_view(part.mesh)),
                 ("noisy", plain_view(noisy)),
                 ("regions", region_view(result)),
                 ("denoised", plain_view(clean)),
-                ("distance, noisy", heat_view(noisy, before.of_vertex, most)),
-                ("distance, denoised", heat_view(clean, after.of_vertex, most)),
+                (f"distance, noisy; {scale}", heat_view(noisy, before.of_vertex, most)),
+                (f"distance, denoised; {scale}", heat_view(clean, after.of_vertex, most)),
             ]
             pictures.append(Pictures(views))
     words = (

@@ -25,5 +25,5 @@ def make(data: Data) -> Section:
             (f"preset=paper: {len(paper.regions)} regions", region_view(paper)),
             (f"default: {len(ours.regions)} regions", region_view(ours)),
         ]
-        section.blocks.extend([Pictures(views), Note(f"{name}: {model.note}.")])
+        section.blocks.extend([Pictures(views), Note(model.caption)])
     return section

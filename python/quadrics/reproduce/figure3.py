@@ -28,7 +28,7 @@ def make(data: Data) -> Section:
             seen = judge(as_answer(result), truth, noisy)
             rows.append((name, label, f"{100 * seen.hamming:.2f}", f"{100 * seen.consistency:.2f}"))
             views.append((f"{label} constraints", region_view(result)))
-        section.blocks.extend([Pictures(views), Note(f"{name}: {model.note}.")])
+        section.blocks.extend([Pictures(views), Note(model.caption)])
     words = (
         "As in the paper the segmentation of the clean mesh is the truth; half of the vertices are "
         "moved by up to 0.005 of the size. The paper: joint HD 3.88 without and 0.05 with, shell "

@@ -29,10 +29,10 @@ def make(data: Data) -> Section:
         if not views:
             shown = _where_they_differ(part.mesh, before.triangle_labels, after.triangle_labels)
             views = [
-                ("before", region_view(before)),
-                ("close-up", region_view(before, shown)),
-                ("after", region_view(after)),
-                ("close-up", region_view(after, shown)),
+                (f"{part.name}, without constraints", region_view(before)),
+                ("its busiest place", region_view(before, shown)),
+                (f"{part.name}, with constraints", region_view(after)),
+                ("the same place", region_view(after, shown)),
             ]
     words = (
         "Length of all boundaries over that of the true ones, on the clean positions; sigma 0.01 "

@@ -31,7 +31,7 @@ def make(data: Data) -> Section:
         curves.append(Curve(f"seed {seeds}", range(len(energy)), energy, seeds == "triangle"))
     drawing = plot(curves, "round", "error (eq. 1)", log=True)
     table = Table(("", "rounds", "first", "least", "sum of rises"), rows)
-    words = f"{model.note}, half of the vertices moved by up to 0.005 of the size."
+    words = f"{model.caption} Half of the vertices are moved by up to 0.005 of the size."
     blocks: list[Block] = [
         table,
         Drawing(drawing, "error by round, from the same start"),

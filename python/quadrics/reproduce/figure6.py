@@ -18,4 +18,4 @@ def make(data: Data) -> Section:
         noisy = synth.noise(model.mesh, sigma=0.01, ratio=ratio)
         result = segment(noisy, regions=len(clean.regions))
         views.append((f"{ratio:.0%} of the vertices", region_view(result)))
-    return Section("Figure 6: noise on twelve", [Pictures(views), Note(model.note)])
+    return Section("Figure 6: noise on twelve", [Pictures(views), Note(model.caption)])

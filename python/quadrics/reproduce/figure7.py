@@ -42,7 +42,7 @@ def make(data: Data) -> Section:
     ]
     parts += [Curve(label, percent, [v] * len(percent), dashed=True) for label, v in CEILING]
     words = (
-        f"{model.note}; sigma 0.01, {SEEDS} seeds; the truth is the segmentation of the clean "
+        f"{model.caption} Sigma 0.01, {SEEDS} seeds; the truth is the segmentation of the clean "
         "mesh, and its number of regions is given, as in the paper."
     )
     ceiling = (

@@ -19,5 +19,5 @@ def make(data: Data) -> Section:
         noise = result.noise.position / model.mesh.size
         found = f"{len(result.regions)} regions, noise {noise:.2g} of the size"
         views = [(name, plain_view(model.mesh)), (found, region_view(result))]
-        section.blocks.extend([Pictures(views), Note(f"{name}: {model.note}.")])
+        section.blocks.extend([Pictures(views), Note(model.caption)])
     return section

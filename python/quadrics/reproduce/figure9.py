@@ -22,4 +22,4 @@ def make(data: Data) -> Section:
             result = segment(model.mesh, regions=regions, max_iterations=rounds, **options)
             caption = f"{label}, {stage}: error {min(result.energy):.3e}"
             views.append((caption, region_view(result)))
-    return Section("Figure 9: start and end", [Pictures(views), Note(model.note)])
+    return Section("Figure 9: start and end", [Pictures(views), Note(model.caption)])

@@ -16,8 +16,7 @@ table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-
 th, td { padding: .25em .8em; text-align: right; border-bottom: 1px solid #eee }
 th { border-bottom: 1px solid #999; font-weight: 600 }
 th:first-child, td:first-child { text-align: left }
-.row { display: flex; flex-wrap: wrap; gap: 10px }
-.row figure { width: 310px }
+.row { display: grid; gap: 10px }
 figure { margin: 0 0 1em } figcaption { font-size: .85em; color: #555 }
 img { max-width: 100%; border: 1px solid #eee }
 p { max-width: 46em }

@@ -30,7 +30,8 @@ def plot(curves: Sequence[Curve], x_label: str, y_label: str, *, log: bool = Fal
     low_x, high_x = min(xs), max(max(xs), min(xs) + 1e-12)
     low_y, high_y = (min(ys) if log else 0.0), max(ys)
     span = (high_y - low_y) or 1.0
-    high_y = low_y + 1.05 * span
+    # A curve that ends at its least value must not lie on the axis.
+    low_y, high_y = low_y - (0.04 * span if log else 0.0), high_y + 0.05 * span
 
     def at(x: float, y: float) -> tuple[float, float]:
         right = LEFT + (WIDTH - LEFT - RIGHT) * (x - low_x) / (high_x - low_x)
@@ -38,12 +39,12 @@ def plot(curves: Sequence[Curve], x_label: str, y_label: str, *, log: bool = Fal
         return right, down
 
     parts = [f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" font-size="12">']
-    for tick in _ticks(low_y, high_y, log=log):
-        x, y = at(low_x, tick)
-        shown = f"{10**tick:.3g}" if log else f"{tick:.3g}"
+    for value in _log_ticks(10**low_y, 10**high_y) if log else _ticks(low_y, high_y):
+        x, y = at(low_x, _scaled(value, log))
+        shown = f"{value:.3g}"
         parts.append(f'<path d="M{x:.1f} {y:.1f}H{WIDTH - RIGHT}" stroke="#e5e5e5"/>')
         parts.append(f'<text x="{x - 6:.1f}" y="{y + 4:.1f}" text-anchor="end">{shown}</text>')
-    for tick in _ticks(low_x, high_x, log=False):
+    for tick in _ticks(low_x, high_x):
         x, y = at(tick, low_y)
         parts.append(f'<text x="{x:.1f}" y="{y + 18:.1f}" text-anchor="middle">{tick:.3g}</text>')
     parts.append(
@@ -71,12 +72,20 @@ def _scaled(value: float, log: bool) -> float:
     return math.log10(max(value, 1e-30)) if log else value
 
 
-def _ticks(low: float, high: float, *, log: bool) -> list[float]:
+def _ticks(low: float, high: float) -> list[float]:
     """About five round numbers."""
     raw = (high - low) / 5
     power = 10 ** math.floor(math.log10(raw))
     step = next(power * m for m in (1, 2, 5, 10) if power * m >= raw)
-    # Exponents are whole where there are enough decades.
-    step = max(1.0, round(step)) if log and high - low > 3 else step
     first = math.ceil(low / step - 1e-9)
     return [n * step for n in range(first, math.floor(high / step + 1e-9) + 1)]
+
+
+def _log_ticks(low: float, high: float) -> list[float]:
+    """Powers of ten, with 2 and 5 between where those are few; plain ones within an octave."""
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    for multiples in ((1,), (1, 2, 5)):
+        ticks = [m * 10.0**n for n in decades for m in multiples if low <= m * 10.0**n <= high]
+        if len(ticks) >= 3:
+            return ticks[:: -(-len(ticks) // 8)]
+    return _ticks(low, high)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 #: Width of a picture on the page, in pixels.
 PICTURE = 420
+MOST_IN_A_ROW = 5
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,12 @@ class Pictures:
 
     def html(self) -> str:
         """As a row of figures, the pictures inside the page."""
-        return f"<div class=row>{''.join(_figure(*view) for view in self.views)}</div>"
+        count = len(self.views)
+        # Rows of one length: six pictures are two rows of three, not five and one.
+        columns = -(-count // -(-count // MOST_IN_A_ROW))
+        style = f"grid-template-columns: repeat({columns}, minmax(0, 310px))"
+        figures = "".join(_figure(*view) for view in self.views)
+        return f'<div class=row style="{style}">{figures}</div>'
 
 
 def _figure(caption: str, pixels: NDArray[np.uint8]) -> str:

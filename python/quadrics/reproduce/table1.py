@@ -34,12 +34,12 @@ def make(data: Data) -> Section:
     meshes = [(model.name, model.mesh), *((part.name, part.mesh) for part in data.known()[:4])]
     rows = [row for name, mesh in meshes for row in compare(name, mesh)]
     words = (
-        f"{model.note}. Noise of sigma {SIGMA} on {RATIO:.0%} of the vertices, means over {SEEDS} "
-        "seeds; the truth is the segmentation of the clean mesh by the same program. Error is "
-        "eq. 1 in the unit cube, in thousandths; the paper does not say in which unit its own is. "
-        "From the truth: started from the labels of the clean mesh, with constraints. Perfect "
-        "surfaces: every face goes to the nearest of the clean surfaces of its own region and of "
-        "that region's neighbours, by distance and normal, face by face."
+        f"{model.caption} Noise of sigma {SIGMA} on {RATIO:.0%} of the vertices, means over "
+        f"{SEEDS} seeds; the truth is the segmentation of the clean mesh by the same program. "
+        "Error is eq. 1 in the unit cube, in thousandths; the paper does not say in which unit its "
+        "own is. From the truth: started from the labels of the clean mesh, with constraints. "
+        "Perfect surfaces: every face goes to the nearest of the clean surfaces of its own region "
+        "and of that region's neighbours, by distance and normal, face by face."
     )
     title = "Table 1: error, HD and CE without and with constraints"
     return Section(title, [Table(HEADINGS, rows), Note(words)])

@@ -5,8 +5,7 @@ from __future__ import annotations
 from quadrics.reproduce.data import Data, Model
 from quadrics.reproduce.paper import TABLE2, regions_of
 from quadrics.reproduce.section import Note, Section, Table
-from quadrics.reproduce.timing import method_seconds
-from quadrics.result import Result
+from quadrics.reproduce.timing import Timed, timed
 from quadrics.run import segment
 
 MODELS = (
@@ -21,7 +20,7 @@ def make(data: Data) -> Section:
     notes = []
     for name in MODELS:
         model = data.model(name)
-        notes.append(f"{name}: {model.note}")
+        notes.append(model.caption)
         rows += compare(model)
     heading = ("model", "method", "regions", "error 0", "error 1", "seconds", "paper's error 0",
                "error 1", "seconds")  # fmt: skip
@@ -29,20 +28,20 @@ def make(data: Data) -> Section:
         f"QSF starts at random: its row is the mean of {SEEDS} seeds, the best of them stands "
         "below. Ours is preset=paper, seed 0. Errors compare only within a table: the paper does "
         "not state its beta, and only fandisk of its models is public as it was used. Seconds are "
-        "those of subdivision, start and loop."
+        "processor time of subdivision, start and loop."
     )
     return Section(
         "Table 2: error and time against QSF",
-        [Table(heading, rows), Note(words), Note("; ".join(notes) + ".")],
+        [Table(heading, rows), Note(words), Note(" ".join(notes))],
     )
 
 
 def compare(model: Model) -> list[tuple[str, ...]]:
     """Give three rows: QSF on the mean, the best of QSF, ours."""
     regions = regions_of(model.name) or len(segment(model.mesh).regions)
-    ours = segment(model.mesh, preset="paper", regions=regions)
-    theirs = [segment(model.mesh, method="qsf", regions=regions, seed=s) for s in range(SEEDS)]
-    best = min(theirs, key=lambda result: min(result.energy))
+    ours = timed(model.mesh, preset="paper", regions=regions)
+    theirs = [timed(model.mesh, method="qsf", regions=regions, seed=s) for s in range(SEEDS)]
+    best = min(theirs, key=lambda run: min(run.result.energy))
     printed = TABLE2.get(model.name)
     return [
         _row(model.name, "QSF, mean", theirs, printed and printed[0]),
@@ -52,12 +51,12 @@ def compare(model: Model) -> list[tuple[str, ...]]:
 
 
 def _row(
-    name: str, method: str, results: list[Result], printed: tuple[float, float, float] | None
+    name: str, method: str, runs: list[Timed], printed: tuple[float, float, float] | None
 ) -> tuple[str, ...]:
-    count = len(results)
-    start = sum(result.energy[0] for result in results) / count
-    end = sum(min(result.energy) for result in results) / count
-    seconds = sum(map(method_seconds, results)) / count
+    count = len(runs)
+    start = sum(run.result.energy[0] for run in runs) / count
+    end = sum(min(run.result.energy) for run in runs) / count
+    seconds = sum(run.method_seconds for run in runs) / count
     shown = [f"{value:g}" for value in printed] if printed else ["", "", ""]
-    regions = str(len(results[0].regions))
+    regions = str(len(runs[0].result.regions))
     return (name, method, regions, f"{start:.3e}", f"{end:.3e}", f"{seconds:.2f}", *shown)
