@@ -10,6 +10,8 @@ use crate::math::Point;
 pub struct Position {
     /// Only things of one group are compared.
     pub group: usize,
+    /// Of sizes: what they are of and along which direction, as long as it is one for all of them.
+    pub kin: Option<(usize, usize)>,
     /// How many things it stands for.
     pub count: usize,
     /// Whether large groups attract: axes gather, sizes do not.
@@ -54,7 +56,13 @@ impl Estimate for Position {
             return Gate::by_tolerance(tolerance, apart.norm());
         }
         let covariance = &self.covariance + &other.covariance + self.lever(other);
-        let before = if self.social { gate::joining(self.count, other.count) } else { 0.0 };
+        let before = if self.social {
+            gate::joining(self.count, other.count)
+        } else if self.kin.is_some() && self.kin == other.kin {
+            gate::KIN
+        } else {
+            0.0
+        };
         let volume = self.volume.max(other.volume);
         gate::log_odds(&apart, &covariance, volume, before)
     }
@@ -65,6 +73,7 @@ impl Estimate for Position {
         let nearer = self.covariance.trace() <= other.covariance.trace();
         Self {
             group: self.group,
+            kin: self.kin.filter(|_| self.kin == other.kin),
             count: self.count + other.count,
             social: self.social,
             value: &self.value + &gain * (&other.value - &self.value),
