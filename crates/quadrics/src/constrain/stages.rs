@@ -22,6 +22,9 @@ use super::{Constrained, Dimension};
 use crate::math::Unit;
 use crate::surface::{Condensed, Surface};
 
+/// Of more surfaces no relations are sought but what is equal and at right angles: pairs and triples
+/// grow with the square and the cube of their number, and so does the system that their equations make.
+const MANY: usize = 250;
 /// Increase of chi-squared of one surface that no set of relations may ask for.
 const TOO_MUCH: f64 = 40.0;
 /// What follows from the others holds to this, in radians and sizes.
@@ -136,7 +139,9 @@ impl<'a> Work<'a> {
             !self.demands.forbids(new.kind, &new.surfaces)
                 && !self.demands.forced().any(|d| d.kind == new.kind && d.regions == new.surfaces)
         };
-        for found in [contact::proposals, pattern::proposals, mirror::proposals, gaps::proposals] {
+        let many = self.items.len() > MANY;
+        let sought = [contact::proposals, pattern::proposals, mirror::proposals, gaps::proposals];
+        for found in sought.into_iter().filter(|_| !many) {
             proposals.extend(found(&part).into_iter().filter(wanted));
         }
         let vain = vain
