@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2};
 
-use super::cluster::{Estimate, Rules, agglomerate};
+use super::cluster::{Estimate, Rules, SKEW, agglomerate};
 use super::gate::{self, Gate};
 use crate::math::{Unit, frame};
 use crate::surface::Condensed;
@@ -47,6 +47,10 @@ impl Estimate for Bearing {
         let g = DVector::from_column_slice(g.as_slice());
         let spread = DMatrix::from_column_slice(2, 2, (one + two).as_slice());
         gate::log_odds(&g, &spread, SPREAD, gate::joining(self.count, other.count))
+    }
+
+    fn key(&self) -> f64 {
+        self.direction.iter().zip(SKEW).map(|(x, w)| x * w).sum::<f64>().abs()
     }
 
     fn fused(&self, other: &Self) -> Self {

@@ -181,13 +181,16 @@ impl View<'_> {
 
     /// What each surface may still do.
     pub fn scatters(&self) -> Vec<Scatter> {
+        let mut state = self.solution.state.clone();
         let of = |i: usize| {
             let unknowns = self.system.unknowns(i);
             let units: Vec<_> = unknowns.iter().map(|&u| vec![(u, 1.0)]).collect();
-            let moved = |unknown: usize, step: f64| {
-                let mut state = self.solution.state.clone();
+            let mut moved = |unknown: usize, step: f64| {
+                let kept = state.value(unknown);
                 state.nudge(unknown, step);
-                self.system.surface(i, &state)
+                let surface = self.system.surface(i, &state);
+                state.restore(unknown, kept);
+                surface
             };
             Scatter {
                 covariance: self.solution.spread.of(&units),

@@ -2,9 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::cluster::Estimate;
+use super::cluster::{Estimate, SKEW};
 use super::gate::{self, Gate};
 use crate::math::Point;
+
+/// Keys of different groups are further apart than any two places in the unit cube.
+const GROUPS: f64 = 1e3;
 
 /// Where something is, in one or more numbers, and their covariance.
 pub struct Position {
@@ -32,9 +35,12 @@ pub struct Position {
 
 impl Position {
     /// Variance that the direction adds over the way between two measurements.
+    fn swing(&self, other: &Self) -> f64 {
+        (self.measured - other.measured).norm_squared() * self.turn.max(other.turn)
+    }
+
     fn lever(&self, other: &Self) -> DMatrix<f64> {
-        let way = (self.measured - other.measured).norm_squared();
-        DMatrix::identity(self.value.len(), self.value.len()) * (way * self.turn.max(other.turn))
+        DMatrix::identity(self.value.len(), self.value.len()) * self.swing(other)
     }
 
     /// Chi-squared and number of equations of two being one.
@@ -51,10 +57,19 @@ impl Estimate for Position {
         if self.group != other.group {
             return None;
         }
-        let apart = &self.value - &other.value;
+        let squared: f64 =
+            self.value.iter().zip(other.value.iter()).map(|(a, b)| (a - b).powi(2)).sum();
         if let Some(tolerance) = self.tolerance {
-            return Gate::by_tolerance(tolerance, apart.norm());
+            return Gate::by_tolerance(tolerance, squared.sqrt());
         }
+        // No variance exceeds the trace, so chi-squared is at least this: most pairs end here.
+        let count = self.value.len();
+        let lever = count as f64 * self.swing(other);
+        let trace = self.covariance.trace() + other.covariance.trace() + lever;
+        if squared > gate::limit(count) * trace {
+            return None;
+        }
+        let apart = &self.value - &other.value;
         let covariance = &self.covariance + &other.covariance + self.lever(other);
         let before = if self.social {
             gate::joining(self.count, other.count)
@@ -65,6 +80,10 @@ impl Estimate for Position {
         };
         let volume = self.volume.max(other.volume);
         gate::log_odds(&apart, &covariance, volume, before)
+    }
+
+    fn key(&self) -> f64 {
+        self.group as f64 * GROUPS + self.value.iter().zip(SKEW).map(|(x, w)| x * w).sum::<f64>()
     }
 
     fn fused(&self, other: &Self) -> Self {

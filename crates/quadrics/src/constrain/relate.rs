@@ -18,6 +18,10 @@ use super::weigh::{Outcome, weigh};
 /// What follows from the others holds to this, in radians and sizes.
 const FOLLOWS: f64 = 1e-9;
 
+/// Of more surfaces no relations are sought but what is equal and at right angles: pairs and triples
+/// grow with the square and the cube of their number, and so does the system that their equations make.
+const MANY: usize = 250;
+
 impl Work<'_> {
     /// What equations say: contact, distances and angles, symmetry, patterns, the user's values.
     pub fn relate(&mut self) {
@@ -28,7 +32,9 @@ impl Work<'_> {
             !self.demands.forbids(new.kind, &new.surfaces)
                 && !self.demands.forced().any(|d| d.kind == new.kind && d.regions == new.surfaces)
         };
-        for found in [contact::proposals, pattern::proposals, mirror::proposals, gaps::proposals] {
+        let many = self.items.len() > MANY;
+        let sought = [contact::proposals, pattern::proposals, mirror::proposals, gaps::proposals];
+        for found in sought.into_iter().filter(|_| !many) {
             proposals.extend(found(&part).into_iter().filter(wanted));
         }
         let vain = vain
