@@ -1,8 +1,6 @@
-//! Which faces share an edge, and which share a vertex. By counting, not by hashing.
+//! Which faces share an edge, and which share a vertex. By sorting, not by hashing.
 
-use rayon::prelude::*;
-
-use super::edges::{Across, Edges, Stars};
+use super::edges::for_each_edge;
 
 /// Marks an edge without a neighbour: a border, or an edge that is not manifold.
 pub const NONE: u32 = u32::MAX;
@@ -12,32 +10,61 @@ pub const NONE: u32 = u32::MAX;
 pub struct Adjacency {
     /// The face across edge `i` of a face, from its corner `i` to corner `i + 1`; [`NONE`] at a border.
     pub neighbours: Vec<[u32; 3]>,
-    stars: Stars,
+    /// Faces around vertex `v`: `incident[offsets[v]..offsets[v + 1]]`.
+    offsets: Vec<u32>,
+    incident: Vec<u32>,
 }
 
 impl Adjacency {
     /// Adjacency of `faces` over `vertices` vertices. Edges of more than two faces have no neighbours.
     pub fn new(faces: &[[u32; 3]], vertices: usize) -> Self {
-        let stars = Stars::new(faces, vertices);
-        let edges = Edges::new(faces, &stars);
-        let neighbour = |half_edge: u32| match edges.across(half_edge) {
-            Across::One(other) => other / 3,
-            Across::Nothing | Across::Many => NONE,
-        };
-        let all = (0..faces.len() as u32).into_par_iter().with_min_len(4096);
-        let neighbours = all.map(|face| [0, 1, 2].map(|i| neighbour(3 * face + i))).collect();
-        Self { neighbours, stars }
+        let (neighbours, (offsets, incident)) = rayon::join(
+            || face_neighbours(faces, vertices),
+            || faces_around_vertices(faces, vertices),
+        );
+        Self { neighbours, offsets, incident }
     }
 
     /// The faces at a vertex, in ascending order.
     pub fn around(&self, vertex: u32) -> &[u32] {
-        self.stars.of(vertex)
+        let v = vertex as usize;
+        &self.incident[self.offsets[v] as usize..self.offsets[v + 1] as usize]
     }
 
     /// The faces across the edges of `face`.
     pub fn across(&self, face: usize) -> impl Iterator<Item = usize> {
         self.neighbours[face].into_iter().filter(|&n| n != NONE).map(|n| n as usize)
     }
+}
+
+fn face_neighbours(faces: &[[u32; 3]], vertices: usize) -> Vec<[u32; 3]> {
+    let mut neighbours = vec![[NONE; 3]; faces.len()];
+    for_each_edge(faces, vertices, |edge| {
+        if let &[one, other] = edge {
+            neighbours[one as usize / 3][one as usize % 3] = other / 3;
+            neighbours[other as usize / 3][other as usize % 3] = one / 3;
+        }
+    });
+    neighbours
+}
+
+fn faces_around_vertices(faces: &[[u32; 3]], vertices: usize) -> (Vec<u32>, Vec<u32>) {
+    let mut offsets = vec![0u32; vertices + 1];
+    for &vertex in faces.iter().flatten() {
+        offsets[vertex as usize + 1] += 1;
+    }
+    for v in 0..vertices {
+        offsets[v + 1] += offsets[v];
+    }
+    let mut next = offsets.clone();
+    let mut incident = vec![0; 3 * faces.len()];
+    for (face, corners) in faces.iter().enumerate() {
+        for &vertex in corners {
+            incident[next[vertex as usize] as usize] = face as u32;
+            next[vertex as usize] += 1;
+        }
+    }
+    (offsets, incident)
 }
 
 #[cfg(test)]

@@ -1,14 +1,8 @@
-//! The half-edges of every edge, without hashing and, but for crowds, without sorting.
+//! The edges of a mesh with the faces at each, without hashing.
 //!
-//! A half-edge `3 f + i` runs from corner `i` of face `f` to corner `i + 1`. The others of its edge are
-//! among the faces around either of its ends, about six: every face finds them by itself, so all
-//! faces can do so at once. Where many faces meet at both ends the half-edges are sorted instead.
-
-use std::ops::Range;
-
-use rayon::prelude::*;
-
-use super::NONE;
+//! A half-edge `3 f + i` runs from corner `i` of face `f` to corner `i + 1`. Half-edges are dealt into
+//! one bucket for each lower vertex (a counting sort) and ordered there by the higher one: linear, since
+//! a vertex has about six edges, and still `n log n` where one vertex has them all.
 
 /// Where a half-edge starts and ends.
 pub(crate) fn ends(faces: &[[u32; 3]], half_edge: u32) -> (u32, u32) {
@@ -17,190 +11,63 @@ pub(crate) fn ends(faces: &[[u32; 3]], half_edge: u32) -> (u32, u32) {
     (corners[i], corners[(i + 1) % 3])
 }
 
-/// The faces around every vertex, flat: the transpose of a mesh's faces.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Stars {
-    offsets: Vec<u32>,
-    faces: Vec<u32>,
-}
-
-impl Stars {
-    pub fn new(faces: &[[u32; 3]], vertices: usize) -> Self {
-        let mut offsets = vec![0u32; vertices + 1];
-        for &vertex in faces.iter().flatten() {
-            offsets[vertex as usize + 1] += 1;
-        }
-        for v in 0..vertices {
-            offsets[v + 1] += offsets[v];
-        }
-        let mut next = offsets.clone();
-        let mut around = vec![0; 3 * faces.len()];
-        for (face, corners) in faces.iter().enumerate() {
-            for &vertex in corners {
-                around[next[vertex as usize] as usize] = face as u32;
-                next[vertex as usize] += 1;
-            }
-        }
-        Self { offsets, faces: around }
+/// Calls `visit` once an edge with its half-edges, ascending; edges come ordered by their vertices.
+pub(crate) fn for_each_edge(faces: &[[u32; 3]], vertices: usize, mut visit: impl FnMut(&[u32])) {
+    let mut offsets = vec![0u32; vertices + 1];
+    for_each_half_edge(faces, |low, _, _| offsets[low as usize + 1] += 1);
+    for v in 0..vertices {
+        offsets[v + 1] += offsets[v];
     }
-
-    /// The faces at a vertex, in ascending order; one that is there with two corners comes twice.
-    pub fn of(&self, vertex: u32) -> &[u32] {
-        let v = vertex as usize;
-        &self.faces[self.offsets[v] as usize..self.offsets[v + 1] as usize]
+    // Higher vertex above, half-edge below: one integer to compare.
+    let mut entries = vec![0u64; 3 * faces.len()];
+    for_each_half_edge(faces, |low, high, half_edge| {
+        let next = &mut offsets[low as usize];
+        entries[*next as usize] = u64::from(high) << 32 | u64::from(half_edge);
+        *next += 1;
+    });
+    // Every offset now stands at the end of its bucket.
+    let mut start = 0;
+    let mut edge = Vec::new();
+    for end in offsets.into_iter().take(vertices) {
+        let bucket = &mut entries[start as usize..end as usize];
+        bucket.sort_unstable();
+        for same in bucket.chunk_by(|one, other| one >> 32 == other >> 32) {
+            edge.clear();
+            edge.extend(same.iter().map(|&entry| entry as u32));
+            visit(&edge);
+        }
+        start = end;
     }
 }
 
-/// What else is on the edge of a half-edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Across {
-    Nothing,
-    One(u32),
-    Many,
-}
-
-/// A vertex of more faces is not walked around for each of them.
-const CROWD: usize = 64;
-
-/// The edges of a mesh.
-pub(crate) struct Edges<'a> {
-    faces: &'a [[u32; 3]],
-    stars: &'a Stars,
-    /// Half-edges between two crowded vertices by lower vertex, higher vertex, number.
-    crowded: Vec<(u32, u32, u32)>,
-}
-
-impl<'a> Edges<'a> {
-    pub fn new(faces: &'a [[u32; 3]], stars: &'a Stars) -> Self {
-        let is_crowded = |&v: &u32| stars.of(v).len() > CROWD;
-        let between = |half_edge: u32| {
-            let (a, b) = ends(faces, half_edge);
-            (is_crowded(&a) && is_crowded(&b)).then_some((a.min(b), a.max(b), half_edge))
-        };
-        let all = (0..faces.len() as u32).into_par_iter().with_min_len(4096);
-        let some = all.filter(|&face| faces[face as usize].iter().any(is_crowded));
-        let mut crowded: Vec<_> =
-            some.flat_map_iter(|face| (3 * face..3 * face + 3).filter_map(between)).collect();
-        crowded.par_sort_unstable();
-        Self { faces, stars, crowded }
-    }
-
-    /// What else is on the edge of a half-edge.
-    pub fn across(&self, half_edge: u32) -> Across {
-        self.mates(half_edge).across
-    }
-
-    /// Whether a half-edge is the first of its edge.
-    pub fn is_first(&self, half_edge: u32) -> bool {
-        self.mates(half_edge).is_first
-    }
-
-    fn mates(&self, half_edge: u32) -> Mates {
-        let (a, b) = ends(self.faces, half_edge);
-        let (star, other) = (self.stars.of(a), self.stars.of(b));
-        let star = if star.len() <= other.len() { star } else { other };
-        let mut mates = Mates { across: Across::Nothing, is_first: true };
-        if star.len() > CROWD {
-            self.crowd(a.min(b), a.max(b)).for_each(|i| mates.add(half_edge, self.crowded[i].2));
-            return mates;
+fn for_each_half_edge(faces: &[[u32; 3]], mut visit: impl FnMut(u32, u32, u32)) {
+    for (face, &[a, b, c]) in faces.iter().enumerate() {
+        for (i, (from, to)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+            visit(from.min(to), from.max(to), (3 * face + i) as u32);
         }
-        let mut last = NONE;
-        for &face in star.iter() {
-            if face == std::mem::replace(&mut last, face) {
-                continue;
-            }
-            let [p, q, r] = self.faces[face as usize];
-            for (i, (from, to)) in (0..).zip([(p, q), (q, r), (r, p)]) {
-                if (from, to) == (b, a) || (from, to) == (a, b) {
-                    mates.add(half_edge, 3 * face + i);
-                }
-            }
-        }
-        mates
-    }
-
-    /// Where the half-edges between two crowded vertices are.
-    fn crowd(&self, low: u32, high: u32) -> Range<usize> {
-        let start = self.crowded.partition_point(|&(a, b, _)| (a, b) < (low, high));
-        start..start + self.crowded[start..].partition_point(|&(a, b, _)| (a, b) == (low, high))
-    }
-}
-
-/// The other half-edges of an edge, as far as they are known.
-struct Mates {
-    across: Across,
-    is_first: bool,
-}
-
-impl Mates {
-    fn add(&mut self, own: u32, half_edge: u32) {
-        if half_edge == own {
-            return;
-        }
-        self.is_first &= own < half_edge;
-        self.across = match self.across {
-            Across::Nothing => Across::One(half_edge),
-            _ => Across::Many,
-        };
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use rand::RngExt;
-
     use super::*;
-    use crate::context::Context;
 
-    /// All half-edges of the edge of one.
-    fn plain(faces: &[[u32; 3]], half_edge: u32) -> Vec<u32> {
-        let sorted = |half_edge: u32| {
-            let (a, b) = ends(faces, half_edge);
-            (a.min(b), a.max(b))
-        };
-        let all = 0..3 * faces.len() as u32;
-        all.filter(|&other| sorted(other) == sorted(half_edge)).collect()
-    }
-
-    fn check(faces: &[[u32; 3]], vertices: usize) {
-        let stars = Stars::new(faces, vertices);
-        let edges = Edges::new(faces, &stars);
-        for half_edge in 0..3 * faces.len() as u32 {
-            let mates = plain(faces, half_edge);
-            let others: Vec<u32> = mates.iter().copied().filter(|&h| h != half_edge).collect();
-            let expected = match others[..] {
-                [] => Across::Nothing,
-                [other] => Across::One(other),
-                _ => Across::Many,
+    #[test]
+    fn every_half_edge_comes_once_and_with_its_edge() {
+        let faces = [[0, 1, 2], [0, 2, 3], [2, 0, 4], [5, 4, 3]];
+        let mut seen = Vec::new();
+        for_each_edge(&faces, 6, |edge| {
+            let sorted = |h: u32| {
+                let (a, b) = ends(&faces, h);
+                (a.min(b), a.max(b))
             };
-            assert_eq!(edges.across(half_edge), expected);
-            assert_eq!(edges.is_first(half_edge), mates[0] == half_edge);
-        }
-    }
-
-    #[test]
-    fn half_edges_find_each_other_in_any_soup() {
-        let mut rng = Context::new(3).rng;
-        for vertices in [3, 4, 6, 20] {
-            for _ in 0..50 {
-                let corner = |_| rng.random_range(0..vertices);
-                let faces: Vec<[u32; 3]> = {
-                    let corners: Vec<u32> = (0..36).map(corner).collect();
-                    corners.chunks(3).map(|c| [c[0], c[1], c[2]]).collect()
-                };
-                check(&faces, vertices as usize);
-            }
-        }
-    }
-
-    #[test]
-    fn a_book_and_two_hubs_are_sorted() {
-        // Pages on the edge from 0 to 1, and a spindle between 2 and 3.
-        let pages = (4..154).map(|page| [0, 1, page]);
-        let spindle = (154..304).flat_map(|v| {
-            let next = if v == 303 { 154 } else { v + 1 };
-            [[2, v, next], [3, next, v]]
+            assert!(edge.iter().all(|&h| sorted(h) == sorted(edge[0])));
+            seen.extend_from_slice(edge);
         });
-        check(&pages.chain(spindle).collect::<Vec<_>>(), 304);
+        let edges_of_the_diagonal: Vec<_> =
+            seen.iter().filter(|&&h| matches!(ends(&faces, h), (0, 2) | (2, 0))).collect();
+        assert_eq!(edges_of_the_diagonal.len(), 3);
+        seen.sort_unstable();
+        assert_eq!(seen, (0..12).collect::<Vec<_>>());
     }
 }

@@ -7,11 +7,9 @@
 //!   void, whose normals rightly point inward;
 //! * as most of its faces were, if it is open.
 
-use rayon::prelude::*;
-
 use super::Mesh;
 use super::adjacency::NONE;
-use super::edges::{Across, Edges, Stars, ends};
+use super::edges::{ends, for_each_edge};
 use crate::math::Point;
 
 /// How many of the largest closed components are asked whether they enclose another: all pairs would
@@ -33,10 +31,10 @@ pub(crate) struct Census {
     pub flipped: usize,
 }
 
-/// Turns the faces of `mesh` so that they agree; `stars` has those around every vertex.
-pub(crate) fn orient(mesh: &mut Mesh, stars: &Stars) -> Census {
+/// Turns the faces of `mesh` so that they agree.
+pub(crate) fn orient(mesh: &mut Mesh) -> Census {
     let mut census = Census::default();
-    let twins = twins(mesh, stars, &mut census);
+    let twins = twins(mesh, &mut census);
     let (mut components, mut flip) = spread(mesh, &twins, &mut census);
     // From the largest: what lies in another is settled after it.
     components.sort_by(|one, other| other.extent().total_cmp(&one.extent()));
@@ -65,22 +63,19 @@ pub(crate) fn orient(mesh: &mut Mesh, stars: &Stars) -> Census {
 }
 
 /// The half-edge on the other side of every half-edge; [`NONE`] at borders and non-manifold edges.
-fn twins(mesh: &Mesh, stars: &Stars, census: &mut Census) -> Vec<u32> {
-    let edges = Edges::new(&mesh.faces, stars);
-    let twin = |half_edge: u32| match edges.across(half_edge) {
-        Across::One(twin) => twin,
-        Across::Nothing | Across::Many => NONE,
-    };
-    let all = (0..mesh.faces.len() as u32).into_par_iter().with_min_len(4096);
-    let twins: Vec<[u32; 3]> = all.map(|face| [0, 1, 2].map(|i| twin(3 * face + i))).collect();
-    let twins = twins.into_flattened();
-    let alone =
-        || (0..).zip(&twins).filter(|(_, twin)| **twin == NONE).map(|(half_edge, _)| half_edge);
-    census.border = alone().filter(|&h| edges.across(h) == Across::Nothing).count();
-    let many =
-        |&half_edge: &u32| edges.across(half_edge) == Across::Many && edges.is_first(half_edge);
-    census.non_manifold = alone().filter(many).count();
-    census.edges = (twins.len() - alone().count()) / 2 + census.border + census.non_manifold;
+fn twins(mesh: &Mesh, census: &mut Census) -> Vec<u32> {
+    let mut twins = vec![NONE; 3 * mesh.faces.len()];
+    for_each_edge(&mesh.faces, mesh.positions.len(), |edge| {
+        census.edges += 1;
+        match *edge {
+            [_] => census.border += 1,
+            [one, other] => {
+                twins[one as usize] = other;
+                twins[other as usize] = one;
+            }
+            _ => census.non_manifold += 1,
+        }
+    });
     twins
 }
 

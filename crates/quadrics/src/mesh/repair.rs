@@ -7,7 +7,6 @@
 use rayon::prelude::*;
 
 use super::caps::split_at_caps;
-use super::edges::Stars;
 use super::orient::{Census, orient};
 use super::substitute::substitutes;
 use super::validate::{is_usable, validate};
@@ -45,17 +44,14 @@ pub fn repair(mesh: &Mesh) -> Result<Repaired> {
     let zero_area = flat.iter().filter(|flat| **flat).count();
     let owner = split_at_caps(&mut welded, &mut flat);
     let split = zero_area - flat.iter().filter(|flat| **flat).count();
-    let stars = Stars::new(&welded.faces, welded.positions.len());
-    let twin = twins(&welded, &flat, &stars);
+    let twin = twins(&welded, &flat);
     let kept = |face: &u32| !flat[*face as usize] && twin[*face as usize] == NONE;
     let kept: Vec<u32> = (0..mesh.faces.len() as u32).filter(kept).collect();
     note_dropped(zero_area, split, &twin, &mut repairs);
     let representative = substitutes(&welded, &kept, &twin);
     let parent = kept.iter().map(|&face| owner[face as usize]).collect();
-    let whole = kept.len() == welded.faces.len();
     let mut mesh = part(welded, &kept);
-    let stars = if whole { stars } else { Stars::new(&mesh.faces, mesh.positions.len()) };
-    let census = orient(&mut mesh, &stars);
+    let census = orient(&mut mesh);
     note_census(&census, &mut repairs);
     Ok(Repaired { mesh, parent, representative, repairs, census })
 }
@@ -108,20 +104,36 @@ fn flat_faces(mesh: &Mesh) -> Vec<bool> {
 }
 
 /// For every face that repeats the vertices of an earlier one, in whichever order, that earlier face.
-fn twins(mesh: &Mesh, flat: &[bool], stars: &Stars) -> Vec<u32> {
-    let sorted = |face: u32| {
-        let mut corners = mesh.faces[face as usize];
-        corners.sort_unstable();
-        corners
-    };
-    let twin = |face: u32| {
-        let own = sorted(face);
-        let star = own.map(|v| stars.of(v)).into_iter().min_by_key(|star| star.len())?;
-        let earlier = star.iter().take_while(|&&other| other < face);
-        earlier.copied().find(|&other| sorted(other) == own)
-    };
-    let all = (0..mesh.faces.len() as u32).into_par_iter().with_min_len(4096);
-    all.map(|face| twin(face).filter(|_| !flat[face as usize]).unwrap_or(NONE)).collect()
+fn twins(mesh: &Mesh, flat: &[bool]) -> Vec<u32> {
+    // Dealt by least vertex, then ordered by the other two: equal faces come together.
+    let mut offsets = vec![0u32; mesh.positions.len() + 1];
+    for corners in &mesh.faces {
+        offsets[corners[0].min(corners[1]).min(corners[2]) as usize + 1] += 1;
+    }
+    for v in 1..offsets.len() {
+        offsets[v] += offsets[v - 1];
+    }
+    let mut entries = vec![(0u64, 0u32); mesh.faces.len()];
+    for (face, corners) in mesh.faces.iter().enumerate() {
+        let mut sorted = *corners;
+        sorted.sort_unstable();
+        let next = &mut offsets[sorted[0] as usize];
+        entries[*next as usize] = (u64::from(sorted[1]) << 32 | u64::from(sorted[2]), face as u32);
+        *next += 1;
+    }
+    let mut twin = vec![NONE; mesh.faces.len()];
+    let mut start = 0;
+    for &end in &offsets[..mesh.positions.len()] {
+        let bucket = &mut entries[start as usize..end as usize];
+        bucket.sort_unstable();
+        for same in bucket.chunk_by(|one, other| one.0 == other.0) {
+            for &(_, face) in same[1..].iter().filter(|(_, face)| !flat[*face as usize]) {
+                twin[face as usize] = same[0].1;
+            }
+        }
+        start = end;
+    }
+    twin
 }
 
 /// The named faces and the vertices that they use, in their order.
