@@ -41,7 +41,8 @@ check: lint test ## What a commit must pass
 instructions: setup ## Fails where a stage takes more instructions than on record (needs valgrind)
 	$(BIN)/python benchmarks/instructions.py
 
-bench: setup ## Whole programs, ours and rivals that are built, 10 k to 1 M faces (minutes)
+bench: setup ## Algorithms one by one, then whole programs, ours and rivals that are built (minutes)
+	cargo bench -p quadrics-benches --locked
 	$(BIN)/python benchmarks/whole.py --faces 10000 100000 1000000
 
 format: setup ## Put the sources in shape

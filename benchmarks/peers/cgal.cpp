@@ -5,6 +5,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
 #include <CGAL/Shape_detection/Efficient_RANSAC.h>
+#include <CGAL/Shape_detection/Region_growing/Region_growing.h>
+#include <CGAL/Shape_detection/Region_growing/Region_growing_on_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh/IO.h>
 #include <CGAL/Variational_shape_approximation.h>
@@ -16,6 +18,7 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -81,19 +84,35 @@ std::size_t vsa(const Mesh& mesh, const Numbers& given) {
     return approximation.number_of_proxies();
 }
 
+// Planes only; angles are told by their cosine, as for RANSAC.
+std::size_t region_growing(const Mesh& mesh, const Numbers& given) {
+    namespace growing = CGAL::Shape_detection;
+    using Neighbours = growing::Polygon_mesh::One_ring_neighbor_query<Mesh>;
+    using Planes = growing::Polygon_mesh::Least_squares_plane_fit_region<Kernel, Mesh>;
+    Neighbours neighbours(mesh);
+    const double degrees = std::acos(given.at("normal")) * 180 / CGAL_PI;
+    Planes planes(mesh, given.at("epsilon"), degrees, std::size_t(given.at("min-points")),
+                  get(CGAL::vertex_point, mesh));
+    const Mesh::Face_range faces = mesh.faces();  // It keeps a reference only.
+    growing::Region_growing<Mesh::Face_range, Neighbours, Planes> growth(faces, neighbours, planes);
+    std::vector<std::vector<std::size_t>> regions;
+    growth.detect(std::back_inserter(regions));
+    return regions.size();
+}
+
 int main(int count, char** words) {
     const std::vector<std::string> arguments(words + 1, words + count);
     Numbers given{{"epsilon", 0.001}, {"normal", 0.8}, {"cluster", 0.025}, {"min-points", 100},
                   {"regions", 40},    {"iterations", 20}, {"seed", 0}};
     const std::map<std::string, std::size_t (*)(const Mesh&, const Numbers&)> methods{
-        {"ransac", ransac}, {"vsa", vsa}};
+        {"ransac", ransac}, {"vsa", vsa}, {"region-growing", region_growing}};
     bool understood = arguments.size() >= 2 && arguments.size() % 2 == 0 && methods.count(arguments[0]);
     for (std::size_t i = 2; understood && i < arguments.size(); i += 2) {
         understood = arguments[i].substr(0, 2) == "--" && given.count(arguments[i].substr(2));
         if (understood) given[arguments[i].substr(2)] = std::stod(arguments[i + 1]);
     }
     if (!understood) {
-        std::cerr << "usage: cgal ransac|vsa MESH [--epsilon|normal|cluster|min-points|regions|iterations|seed X]\n";
+        std::cerr << "usage: cgal ransac|vsa|region-growing MESH [--epsilon|normal|cluster|min-points|regions|iterations|seed X]\n";
         return 2;
     }
     Mesh mesh;

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -72,7 +73,22 @@ def _value(value: Any) -> str:
 
 
 def _write(result: Result, folder: Path) -> None:
-    from quadrics.picture import region_colours, write_picture
+    from quadrics.picture import write_picture
+
+    picture = folder / "segmentation.png"
+    if result.options.threads == 1:
+        _write_data(result, folder)
+        write_picture(picture, result)
+        return
+    # Most of either is done without the interpreter's lock.
+    with ThreadPoolExecutor(1) as pool:
+        data = pool.submit(_write_data, result, folder)
+        write_picture(picture, result)
+        data.result()
+
+
+def _write_data(result: Result, folder: Path) -> None:
+    from quadrics.picture import region_colours
 
     np.save(folder / "labels.npy", result.labels, allow_pickle=False)
     (folder / "segmentation.json").write_text(to_json(result), encoding="utf-8")
@@ -81,7 +97,6 @@ def _write(result: Result, folder: Path) -> None:
         mesh.vertices, mesh.faces, labels, region_colours(result)[labels]
     )
     (folder / "segmentation.ply").write_bytes(coloured)
-    write_picture(folder / "segmentation.png", result)
 
 
 def _swap(new: Path, folder: Path) -> None:

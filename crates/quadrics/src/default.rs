@@ -10,7 +10,7 @@ use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
 use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, subdivide};
 use crate::recognise::assign::{self, models};
-use crate::recognise::{self, Outcome, carry, evidence, moves, scene::Scene};
+use crate::recognise::{self, Outcome, carry, evidence, expand, moves, scene::Scene};
 use crate::surface::Surface;
 use crate::surface::select::Evidence;
 
@@ -125,7 +125,7 @@ fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Out
     // What noise hides from means of vertices, single ones do not show.
     if averaged == 1 && options.regions.is_none() {
         context.timed("complete", |context| {
-            carry::complete(context, scene, &mut models, &mut labels)
+            carry::complete(context, scene, &mut models, &mut labels, is_faceted(cube))
         })?;
     }
     context.timed("settle", |_| {
@@ -167,7 +167,7 @@ fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<
     context.timed("assign", |_| {
         let regions = Regions::new(&found.labels);
         let mut models = models(scene, &regions, fits.iter().map(|fit| &fit.surface));
-        assign::expand(scene, &models, &mut found.labels);
+        expand::expand(scene, &models, &mut found.labels);
         assign::connect(scene, &mut models, &mut found.labels);
         moves::tidy(&mut models, &mut found.labels);
         moves::drop_needless(scene, &models, &mut found.labels);

@@ -69,7 +69,11 @@ pub fn equalise(fits: &mut [Recognised]) {
 /// The regions that can take part, and their surfaces.
 fn condensed(fits: &[Recognised]) -> (Vec<usize>, Vec<Condensed>) {
     let known = |(i, fit): (usize, &Recognised)| {
-        Some((i, Condensed::new(&fit.surface, &fit.support, fit.sigma)?))
+        let condensed = match &fit.waves {
+            Some(waves) => Condensed::under(&fit.surface, &fit.support, waves),
+            None => Condensed::new(&fit.surface, &fit.support, fit.sigma),
+        };
+        Some((i, condensed?))
     };
     fits.iter().enumerate().filter_map(known).unzip()
 }

@@ -6,6 +6,8 @@ mod separate;
 pub use hand_out::hand_out;
 pub use separate::separate;
 
+use rayon::prelude::*;
+
 use crate::mesh::Adjacency;
 
 /// The region of every face, counted from 0.
@@ -82,38 +84,73 @@ pub fn compact(labels: &mut [u32]) -> usize {
     count as usize
 }
 
+/// Faces that are joined by one thread.
+const CHUNK: usize = 1 << 15;
+
 /// Connected components of equal labels: component of every face, and faces in every component.
 ///
 /// Components are numbered in the order of their first face; an unlabelled face is in a component
-/// of unlabelled faces.
+/// of unlabelled faces. By joining trees of faces, those of a chunk at once, then across chunks.
 pub fn components(labels: &[u32], adjacency: &Adjacency) -> (Vec<u32>, Vec<u32>) {
-    let mut component = vec![UNLABELLED; labels.len()];
-    let mut sizes = Vec::new();
-    let mut stack = Vec::new();
-    for start in 0..labels.len() {
-        if component[start] != UNLABELLED {
-            continue;
-        }
-        let id = sizes.len() as u32;
-        component[start] = id;
-        stack.push(start);
-        let mut size = 0;
-        while let Some(face) = stack.pop() {
-            size += 1;
-            for next in adjacency.across(face) {
-                if component[next] == UNLABELLED && labels[next] == labels[start] {
-                    component[next] = id;
-                    stack.push(next);
+    let mut parent: Vec<u32> = (0..labels.len() as u32).collect();
+    let within = |(chunk, own): (usize, &mut [u32])| {
+        let first = chunk * CHUNK;
+        let mut across = Vec::new();
+        for face in first..first + own.len() {
+            for other in adjacency.across(face) {
+                if other >= face || labels[other] != labels[face] {
+                    continue;
+                }
+                match other.checked_sub(first) {
+                    Some(_) => join(own, first as u32, face as u32, other as u32),
+                    None => across.push((face as u32, other as u32)),
                 }
             }
         }
-        sizes.push(size);
+        across
+    };
+    let across: Vec<(u32, u32)> =
+        parent.par_chunks_mut(CHUNK).enumerate().flat_map_iter(within).collect();
+    across.into_iter().for_each(|(face, other)| join(&mut parent, 0, face, other));
+    // A tree's root is its first face, and a parent comes before its children.
+    let mut sizes = Vec::new();
+    let mut component = parent;
+    for face in 0..component.len() {
+        let parent = component[face] as usize;
+        if parent == face {
+            component[face] = sizes.len() as u32;
+            sizes.push(1);
+        } else {
+            component[face] = component[parent];
+            sizes[component[face] as usize] += 1;
+        }
     }
     (component, sizes)
 }
 
+/// Joins the trees of two faces; `parent` has the faces from `first` on.
+fn join(parent: &mut [u32], first: u32, one: u32, other: u32) {
+    let (one, other) = (root(parent, first, one), root(parent, first, other));
+    parent[(one.max(other) - first) as usize] = one.min(other);
+}
+
+/// The first face of a tree; halves the way to it.
+fn root(parent: &mut [u32], first: u32, mut face: u32) -> u32 {
+    loop {
+        let above = parent[(face - first) as usize];
+        if above == face {
+            return face;
+        }
+        let next = parent[(above - first) as usize];
+        parent[(face - first) as usize] = next;
+        face = next;
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use rand::RngExt;
+
     use super::*;
 
     #[test]
@@ -123,6 +160,42 @@ mod tests {
         assert_eq!(labels, [0, 0, UNLABELLED, 1, 0, 2]);
         let regions = Regions::new(&labels);
         assert_eq!(regions.iter().collect::<Vec<_>>(), [&[0, 1, 4][..], &[3], &[5]]);
+    }
+
+    /// A component at a time, breadth first.
+    fn plain(labels: &[u32], adjacency: &Adjacency) -> Vec<u32> {
+        let mut component = vec![UNLABELLED; labels.len()];
+        let mut next = 0;
+        for start in 0..labels.len() {
+            if component[start] == UNLABELLED {
+                let mut wave = vec![start];
+                while let Some(face) = wave.pop() {
+                    component[face] = next;
+                    let open = |other: &usize| component[*other] == UNLABELLED;
+                    let same = |other: &usize| labels[*other] == labels[start];
+                    wave.extend(adjacency.across(face).filter(open).filter(same));
+                }
+                next += 1;
+            }
+        }
+        component
+    }
+
+    #[test]
+    fn components_across_chunks_are_those_found_one_by_one() {
+        // A ladder of triangles in random order, with a chance of a new label at each.
+        let count = 3 * CHUNK as u32 + 17;
+        let mut order: Vec<u32> = (0..count).collect();
+        let mut rng = crate::context::Context::new(2).rng;
+        for i in (1..order.len()).rev() {
+            order.swap(i, rng.random_range(0..=i));
+        }
+        let faces: Vec<[u32; 3]> = order.iter().map(|&i| [i, i + 1, i + 2]).collect();
+        let labels: Vec<u32> = order.iter().map(|&i| i / 5000 % 3).collect();
+        let adjacency = Adjacency::new(&faces, count as usize + 2);
+        let (component, sizes) = components(&labels, &adjacency);
+        assert_eq!(component, plain(&labels, &adjacency));
+        assert_eq!(sizes.iter().sum::<u32>(), count);
     }
 
     #[test]

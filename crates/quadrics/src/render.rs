@@ -74,21 +74,20 @@ pub fn paint(
     let (width, height) = (view.width * SAMPLES, view.height * SAMPLES);
     assert!(samples.len() >= width * height);
     let light = Light::new(view);
-    let label = |sample: usize| match samples[sample] {
-        NOTHING => i32::MIN,
-        face => labels[face as usize],
-    };
+    let lit: Vec<[f64; 3]> =
+        normals.par_iter().zip(colours).map(|(normal, colour)| light.on(normal, *colour)).collect();
+    let label = |face: u32| if face == NOTHING { i32::MIN } else { labels[face as usize] };
     let shade = |sample: usize| {
         let (x, y) = (sample % width, sample / width);
         let right = sample + usize::from(x + 1 < width);
         let below = sample + if y + 1 < height { width } else { 0 };
-        if label(sample) != label(right) || label(sample) != label(below) {
+        let face = samples[sample];
+        let border =
+            |&other: &usize| samples[other] != face && label(samples[other]) != label(face);
+        if [right, below].iter().any(border) {
             return LINE;
         }
-        match samples[sample] {
-            NOTHING => BACKGROUND.map(f64::from),
-            face => light.on(&normals[face as usize], colours[face as usize]),
-        }
+        if face == NOTHING { BACKGROUND.map(f64::from) } else { lit[face as usize] }
     };
     let pixel = |index: usize| average(index % view.width, index / view.width, width, shade);
     (0..view.width * view.height).into_par_iter().map(pixel).collect()
@@ -137,11 +136,11 @@ fn draw_band(
         if double_area == 0.0 || top >= bottom || left >= right {
             continue;
         }
+        let (across, along) = ((b - a).xy() / double_area, (c - a).xy() / double_area);
         for y in top as usize..bottom as usize {
             for x in left as usize..right as usize {
                 let offset = Vector::new(x as f64, y as f64, 0.0) - a;
-                let u = offset.xy().perp(&(c - a).xy()) / double_area;
-                let v = (b - a).xy().perp(&offset.xy()) / double_area;
+                let (u, v) = (offset.xy().perp(&along), across.perp(&offset.xy()));
                 if u < 0.0 || v < 0.0 || u + v > 1.0 {
                     continue;
                 }

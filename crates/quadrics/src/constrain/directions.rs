@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, Vector2};
 
-use super::cluster::{Estimate, Rules, agglomerate};
+use super::cluster::{Estimate, Rules, SKEW, agglomerate};
 use super::gate::{self, Gate};
 use crate::math::{Unit, frame};
 use crate::surface::Condensed;
@@ -15,8 +15,10 @@ struct Bearing {
     gate: Gate,
 }
 
-/// Solid angle of all directions, signs aside.
-const HEMISPHERE: f64 = std::f64::consts::TAU;
+/// Solid angle of all directions, signs aside, as far as other directions spread over it: near a
+/// direction they are 16 times denser, for drafts and small bevels. Of the true directions 78 of 659
+/// pairs are within 6 degrees (67 of 525 in `parts`, 11 of 134 in `cad`), where 4 would be by chance.
+const SPREAD: f64 = std::f64::consts::TAU / 16.0;
 
 impl Bearing {
     /// The other's tip seen from this one, and both covariances, in the plane across.
@@ -44,7 +46,11 @@ impl Estimate for Bearing {
         }
         let g = DVector::from_column_slice(g.as_slice());
         let spread = DMatrix::from_column_slice(2, 2, (one + two).as_slice());
-        gate::log_odds(&g, &spread, HEMISPHERE, gate::joining(self.count, other.count))
+        gate::log_odds(&g, &spread, SPREAD, gate::joining(self.count, other.count))
+    }
+
+    fn key(&self) -> f64 {
+        self.direction.iter().zip(SKEW).map(|(x, w)| x * w).sum::<f64>().abs()
     }
 
     fn fused(&self, other: &Self) -> Self {

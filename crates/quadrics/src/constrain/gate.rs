@@ -31,6 +31,12 @@ pub fn joining(one: usize, other: usize) -> f64 {
     one.min(other) as f64 * (one.max(other) as f64).ln().min(3.0)
 }
 
+/// Log odds, over those of any two, that sizes of one kind along one direction are equal. Of the true
+/// radii of parallel cylinders within 15 % of each other 97 % are equal in `parts`, 90 % in `cad`; of
+/// those that are not parallel half and three quarters: drills and cutters are few, and their sizes are
+/// preferred numbers a tenth apart.
+pub const KIN: f64 = 2.0;
+
 /// A user's own gate: what deviates less is related, what deviates more is not, however well it is
 /// known. `None` leaves it to the odds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

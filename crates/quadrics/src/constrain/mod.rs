@@ -27,6 +27,7 @@ mod places;
 mod position;
 mod proposal;
 mod refusals;
+mod relate;
 mod report;
 mod rounding;
 mod solve;

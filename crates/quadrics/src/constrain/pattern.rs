@@ -1,6 +1,8 @@
 //! Patterns: holes and bosses around an axis, or along a line, at equal steps.
 
-use nalgebra::Vector2;
+use std::f64::consts::TAU;
+
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::equation::Equation;
 use super::proposal::{Part, Proposal};
@@ -11,6 +13,10 @@ use crate::surface::Surface;
 const FEWEST: usize = 3;
 /// Radii within this fraction of each other may be one drill's: scans round the edges of holes.
 const ALIKE: f64 = 0.15;
+/// Most of the places of a circle, all in a row, that may be empty: a hole may be missing.
+const EMPTY: f64 = 0.25;
+/// Fewest holes that show the middle of a circle of which places may be empty.
+const RIM: usize = 4;
 /// A place may be this many standard deviations, and this fraction of the pitch, off.
 const REACH: (f64, f64) = (4.0, 0.03);
 
@@ -98,6 +104,7 @@ fn circle(part: &Part, direction: &Unit, holes: &[Hole]) -> Option<Proposal> {
     let centers = axes.map(|i| (Some(i), part.pierced(i, direction), part.unsure(i)));
     centers
         .chain([(None, middle, 0.0)])
+        .chain(rim(holes).map(|center| (None, center, 0.0)))
         .filter_map(|(axis, at, unsure)| around(holes, axis, at, unsure))
         .max_by_key(|found| (found.surfaces.len(), std::cmp::Reverse(found.equations.len())))
 }
@@ -111,29 +118,57 @@ fn around(holes: &[Hole], axis: Option<usize>, center: Vector2<f64>, off: f64) -
     let near = |a: &(f64, Hole), b: &(f64, Hole)| b.0 - a.0 < reach(b.0, &a.1);
     let rings = by_distance.chunk_by(near).filter(|ring| ring.len() >= FEWEST);
     let even = |ring: &[(f64, Hole)]| {
-        let mut turned: Vec<(f64, Hole)> = ring
-            .iter()
-            .map(|(_, hole)| ((hole.at - center).y.atan2((hole.at - center).x), *hole))
-            .collect();
-        turned.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let turn = std::f64::consts::TAU / ring.len() as f64;
+        let turned = in_order(ring, center);
         let pitch = ring[0].0;
-        let steps = (0..ring.len()).all(|k| {
-            let next = turned[(k + 1) % ring.len()].0 - turned[k].0;
-            let off = next.rem_euclid(std::f64::consts::TAU) - turn;
-            off.abs() * pitch < 2.0 * reach(pitch, &turned[k].1)
-        });
-        steps.then(|| {
-            let members: Vec<usize> = turned.iter().map(|(_, hole)| hole.surface).collect();
-            Proposal::new(
-                "pattern",
-                members.clone(),
-                steps_of(holes[0].surface, &members, axis, turn),
-                pitch,
-            )
-        })
+        let turn = turn(&turned, |hole| 2.0 * reach(pitch, hole) / pitch)?;
+        let members: Vec<usize> = turned.iter().map(|(_, hole)| hole.surface).collect();
+        let equations = steps_of(holes[0].surface, &members, axis, turn);
+        Some(Proposal::new("pattern", members, equations, pitch))
     };
     rings.filter_map(even).max_by_key(|found| found.surfaces.len())
+}
+
+/// The middle of the circle through holes, by least squares (Kåsa, 1976).
+fn rim(holes: &[Hole]) -> Option<Vector2<f64>> {
+    if holes.len() < RIM {
+        return None;
+    }
+    // |p|² = 2 c · p + k is linear in the centre c and in k.
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for Hole { at, .. } in holes {
+        let row = Vector3::new(2.0 * at.x, 2.0 * at.y, 1.0);
+        normal += row * row.transpose();
+        right += row * at.norm_squared();
+    }
+    Some((normal.try_inverse()? * right).xy())
+}
+
+/// The holes of a ring by their angles around the centre, the widest step between last and first.
+fn in_order(ring: &[(f64, Hole)], center: Vector2<f64>) -> Vec<(f64, Hole)> {
+    let angle = |hole: &Hole| (hole.at - center).y.atan2((hole.at - center).x);
+    let mut turned: Vec<(f64, Hole)> = ring.iter().map(|(_, hole)| (angle(hole), *hole)).collect();
+    turned.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let count = turned.len();
+    let step = |k: usize| (turned[k].0 - turned[(k + count - 1) % count].0).rem_euclid(TAU);
+    let first = (0..count).max_by(|&a, &b| step(a).total_cmp(&step(b))).unwrap_or(0);
+    turned.rotate_left(first);
+    turned
+}
+
+/// The step from hole to hole that divides the circle evenly, up to places that are empty between
+/// the last and the first; `within` says how far a hole may be off, in radians.
+fn turn(turned: &[(f64, Hole)], within: impl Fn(&Hole) -> f64) -> Option<f64> {
+    let count = turned.len();
+    let most = (count as f64 / (1.0 - EMPTY)) as usize;
+    let even = |places: &usize| {
+        let turn = TAU / *places as f64;
+        (0..count).all(|k| {
+            let next = (turned[(k + 1) % count].0 - turned[k].0).rem_euclid(TAU);
+            let wanted = if k + 1 < count { turn } else { turn * (places - count + 1) as f64 };
+            (next - wanted).abs() < within(&turned[k].1)
+        })
+    };
+    (count..=most).find(even).map(|places| TAU / places as f64)
 }
 
 /// The longest row of holes at equal steps.

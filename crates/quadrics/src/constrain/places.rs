@@ -67,6 +67,7 @@ impl View<'_> {
         // The line's own frame is that of the start: turned a little at most.
         Some(Position {
             group: line.direction,
+            kin: None,
             count: 1,
             social: true,
             value: DVector::from_row_slice(&value),
@@ -93,6 +94,7 @@ impl View<'_> {
         let along = state.directions[*direction].dot(&base.coords) + state.scalars[*offset];
         Some(Position {
             group: *direction,
+            kin: None,
             count: 1,
             social: true,
             value: DVector::from_element(1, along),
@@ -127,6 +129,7 @@ impl View<'_> {
         let value = DVector::from_column_slice(center.coords.as_slice());
         Some(Position {
             group: 0,
+            kin: None,
             count: 1,
             social: false,
             value,
@@ -142,6 +145,7 @@ impl View<'_> {
         let (_, value) = self.scalar(scalar);
         Position {
             group: 0,
+            kin: None,
             count: 1,
             social: false,
             value: DVector::from_element(1, value),
@@ -161,7 +165,13 @@ impl View<'_> {
             return None;
         };
         let octaves = OCTAVES * self.scalar(*scalar).1.abs();
-        Some(self.size(*scalar, octaves, self.demands.gate.length))
+        let size = self.size(*scalar, octaves, self.demands.gate.length);
+        let kin = match &self.system.forms[i] {
+            Form::Cylinder { line, .. } => Some((0, line.direction)),
+            Form::Torus { line, .. } => Some((1, line.direction)),
+            _ => None,
+        };
+        Some(Position { kin, ..size })
     }
 
     pub fn angle(&self, i: usize) -> Option<Position> {
@@ -171,13 +181,16 @@ impl View<'_> {
 
     /// What each surface may still do.
     pub fn scatters(&self) -> Vec<Scatter> {
+        let mut state = self.solution.state.clone();
         let of = |i: usize| {
             let unknowns = self.system.unknowns(i);
             let units: Vec<_> = unknowns.iter().map(|&u| vec![(u, 1.0)]).collect();
-            let moved = |unknown: usize, step: f64| {
-                let mut state = self.solution.state.clone();
+            let mut moved = |unknown: usize, step: f64| {
+                let kept = state.value(unknown);
                 state.nudge(unknown, step);
-                self.system.surface(i, &state)
+                let surface = self.system.surface(i, &state);
+                state.restore(unknown, kept);
+                surface
             };
             Scatter {
                 covariance: self.solution.spread.of(&units),

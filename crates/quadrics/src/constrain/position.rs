@@ -2,14 +2,19 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::cluster::Estimate;
+use super::cluster::{Estimate, SKEW};
 use super::gate::{self, Gate};
 use crate::math::Point;
+
+/// Keys of different groups are further apart than any two places in the unit cube.
+const GROUPS: f64 = 1e3;
 
 /// Where something is, in one or more numbers, and their covariance.
 pub struct Position {
     /// Only things of one group are compared.
     pub group: usize,
+    /// Of sizes: what they are of and along which direction, as long as it is one for all of them.
+    pub kin: Option<(usize, usize)>,
     /// How many things it stands for.
     pub count: usize,
     /// Whether large groups attract: axes gather, sizes do not.
@@ -30,9 +35,12 @@ pub struct Position {
 
 impl Position {
     /// Variance that the direction adds over the way between two measurements.
+    fn swing(&self, other: &Self) -> f64 {
+        (self.measured - other.measured).norm_squared() * self.turn.max(other.turn)
+    }
+
     fn lever(&self, other: &Self) -> DMatrix<f64> {
-        let way = (self.measured - other.measured).norm_squared();
-        DMatrix::identity(self.value.len(), self.value.len()) * (way * self.turn.max(other.turn))
+        DMatrix::identity(self.value.len(), self.value.len()) * self.swing(other)
     }
 
     /// Chi-squared and number of equations of two being one.
@@ -49,14 +57,33 @@ impl Estimate for Position {
         if self.group != other.group {
             return None;
         }
-        let apart = &self.value - &other.value;
+        let squared: f64 =
+            self.value.iter().zip(other.value.iter()).map(|(a, b)| (a - b).powi(2)).sum();
         if let Some(tolerance) = self.tolerance {
-            return Gate::by_tolerance(tolerance, apart.norm());
+            return Gate::by_tolerance(tolerance, squared.sqrt());
         }
+        // No variance exceeds the trace, so chi-squared is at least this: most pairs end here.
+        let count = self.value.len();
+        let lever = count as f64 * self.swing(other);
+        let trace = self.covariance.trace() + other.covariance.trace() + lever;
+        if squared > gate::limit(count) * trace {
+            return None;
+        }
+        let apart = &self.value - &other.value;
         let covariance = &self.covariance + &other.covariance + self.lever(other);
-        let before = if self.social { gate::joining(self.count, other.count) } else { 0.0 };
+        let before = if self.social {
+            gate::joining(self.count, other.count)
+        } else if self.kin.is_some() && self.kin == other.kin {
+            gate::KIN
+        } else {
+            0.0
+        };
         let volume = self.volume.max(other.volume);
         gate::log_odds(&apart, &covariance, volume, before)
+    }
+
+    fn key(&self) -> f64 {
+        self.group as f64 * GROUPS + self.value.iter().zip(SKEW).map(|(x, w)| x * w).sum::<f64>()
     }
 
     fn fused(&self, other: &Self) -> Self {
@@ -65,6 +92,7 @@ impl Estimate for Position {
         let nearer = self.covariance.trace() <= other.covariance.trace();
         Self {
             group: self.group,
+            kin: self.kin.filter(|_| self.kin == other.kin),
             count: self.count + other.count,
             social: self.social,
             value: &self.value + &gain * (&other.value - &self.value),

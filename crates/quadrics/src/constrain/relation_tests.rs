@@ -65,6 +65,34 @@ fn a_bolt_circle_is_one_pattern_with_its_numbers() {
 }
 
 #[test]
+fn a_bolt_circle_may_lack_a_hole() {
+    let hole = |k: usize| {
+        let turn = std::f64::consts::TAU * k as f64 / 6.0 + 0.3;
+        let off = 5e-5 * (k as f64).sin();
+        let at = [0.5 + 0.3 * turn.cos() + off, 0.5 + 0.3 * turn.sin() - off, 0.5];
+        cylinder(at, Vector::z(), 0.03)
+    };
+    let bore = || cylinder([0.5, 0.5, 0.5], Vector::z(), 0.12);
+    let without = |gone: usize| (0..6).filter(move |k| *k != gone).map(hole);
+    for items in [without(2).chain([bore()]).collect::<Vec<_>>(), without(5).collect()] {
+        let found = touching(&items);
+        let patterns = standing(&found, "pattern");
+        assert_eq!(patterns.len(), 1, "{:?}", found.links);
+        let pattern = patterns[0];
+        assert!(pattern.after < 1e-12, "{pattern:?}");
+        let of =
+            |name: &str| pattern.parameters.iter().find(|(known, _)| *known == name).unwrap().1;
+        assert_eq!([of("count"), of("places")], [Value::Count(5), Value::Count(6)]);
+        let (Value::Length(radius), Value::Point(center)) = (of("pitch_radius"), of("point"))
+        else {
+            panic!()
+        };
+        assert!((radius - 0.3).abs() < 2e-4, "{radius}");
+        assert!((center.xy() - nalgebra::Point2::new(0.5, 0.5)).norm() < 3e-4, "{center}");
+    }
+}
+
+#[test]
 fn a_row_has_a_pitch_and_odd_holes_no_pattern() {
     let row = |x: f64| cylinder([x, 0.3, 0.5], Vector::z(), 0.02);
     let found = touching(&[row(0.2), row(0.4001), row(0.6), row(0.8)]);

@@ -148,11 +148,14 @@ fn parameters(part: &Part, proposal: &Proposal) -> Vec<(&'static str, Value)> {
                 ];
             }
             let around = !proposal.surfaces.contains(&from[0]);
-            let members = proposal.surfaces.iter().map(|&i| flat(at(i) - first));
-            let middle = members.sum::<Vector>() / proposal.surfaces.len() as f64;
+            // A chord and the angle that it is seen at have one centre.
+            let chord = flat(at(proposal.surfaces[1]) - first);
+            let middle = chord / 2.0 + axis.cross(&chord) / (2.0 * (turn / 2.0).tan());
             let center = if around { at(from[0]) } else { first + middle };
+            let places = (std::f64::consts::TAU / turn).round() as usize;
             vec![
                 count,
+                ("places", Value::Count(places)),
                 ("axis", Value::Direction(axis)),
                 ("point", Value::Point(center)),
                 ("pitch_radius", Value::Length(flat(first - center).norm())),

@@ -117,8 +117,9 @@ impl Step {
         let mut right = DVector::<f64>::zeros(count);
         let mut owns = Vec::with_capacity(items.len());
         let mut rights = Vec::with_capacity(items.len());
+        let mut moved = state.clone();
         for (i, item) in items.iter().enumerate() {
-            let (jacobian, delta, unknowns) = linearised(item, system, state, i)?;
+            let (jacobian, delta, unknowns) = linearised(item, system, &mut moved, i)?;
             let weighted = jacobian.transpose() * &item.information;
             let (hessian, gradient) = (&weighted * &jacobian, -(&weighted * &delta));
             let (own, shared): (Vec<usize>, Vec<usize>) =
@@ -179,22 +180,23 @@ fn factor(mut matrix: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     matrix.cholesky()
 }
 
-/// Jacobian of a surface's coordinates, their values, and the unknowns.
+/// Jacobian of a surface's coordinates, their values, and the unknowns. `state` comes back as it was.
 fn linearised(
     item: &Condensed,
     system: &System,
-    state: &State,
+    state: &mut State,
     i: usize,
 ) -> Option<(DMatrix<f64>, DVector<f64>, Vec<usize>)> {
     let unknowns = system.unknowns(i);
     let delta = item.coordinates(&system.surface(i, state))?;
     let mut jacobian = DMatrix::zeros(delta.len(), unknowns.len());
-    let mut moved = state.clone();
     for (k, &unknown) in unknowns.iter().enumerate() {
         let mut at = |step: f64| {
-            moved.clone_from(state);
-            moved.nudge(unknown, step);
-            item.coordinates(&system.surface(i, &moved))
+            let kept = state.value(unknown);
+            state.nudge(unknown, step);
+            let seen = item.coordinates(&system.surface(i, state));
+            state.restore(unknown, kept);
+            seen
         };
         let slope = (at(STEP)? - at(-STEP)?) / (2.0 * STEP);
         jacobian.set_column(k, &slope);

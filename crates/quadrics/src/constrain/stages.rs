@@ -2,14 +2,9 @@
 
 use super::admit::Verdict;
 use super::alike;
-use super::asked;
 use super::classes::{Classes, evict};
-use super::contact;
 use super::demands::{Demand, Demands};
 use super::equation::Equation;
-use super::gaps;
-use super::mirror;
-use super::pattern;
 use super::places::View;
 use super::proposal::{Part, Proposal};
 use super::refusals;
@@ -17,29 +12,29 @@ use super::report;
 use super::rounding;
 use super::solve::{Solution, solve};
 use super::system::System;
-use super::weigh::{Outcome, weigh};
+use super::weigh::Outcome;
 use super::{Constrained, Dimension};
 use crate::math::Unit;
 use crate::surface::{Condensed, Surface};
 
 /// Increase of chi-squared of one surface that no set of relations may ask for.
-const TOO_MUCH: f64 = 40.0;
-/// What follows from the others holds to this, in radians and sizes.
-const FOLLOWS: f64 = 1e-9;
+pub const TOO_MUCH: f64 = 40.0;
 /// Times that a stage may send surfaces or relations back before it is given up.
-const EVICTIONS: usize = 20;
+pub const EVICTIONS: usize = 20;
 
 /// Surfaces on their way through the stages.
 pub struct Work<'a> {
     pub(super) items: &'a [Condensed],
-    neighbours: &'a [Vec<usize>],
+    pub(super) neighbours: &'a [Vec<usize>],
     pub(super) demands: &'a Demands,
     pub(super) classes: Classes,
     pub(super) directions: Vec<Unit>,
     /// Right angles between classes of directions.
     pub(super) angles: Vec<(Equation, Verdict)>,
-    related: Vec<(Proposal, Outcome)>,
-    vain: Vec<&'a Demand>,
+    /// Relations that equations say, and what became of each.
+    pub(super) related: Vec<(Proposal, Outcome)>,
+    /// What the user asks in vain.
+    pub(super) vain: Vec<&'a Demand>,
     pub(super) solved: Option<(System, Solution)>,
 }
 
@@ -72,7 +67,7 @@ impl<'a> Work<'a> {
     }
 
     /// What holds and is no class of equal things.
-    fn equations(&self) -> Vec<Equation> {
+    pub(super) fn equations(&self) -> Vec<Equation> {
         // What is implied to first order is made exact too.
         let right = self.angles.iter().filter(|(_, v)| !matches!(v, Verdict::Refused(_)));
         let others = self.related.iter().flat_map(|(_, outcome)| outcome.equations.clone());
@@ -115,7 +110,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    fn part<'b>(&'b self, solved: &'b (System, Solution)) -> Part<'b> {
+    pub(super) fn part<'b>(&'b self, solved: &'b (System, Solution)) -> Part<'b> {
         let (system, solution) = solved;
         let surfaces = (0..self.items.len()).map(|i| system.surface(i, &solution.state)).collect();
         Part {
@@ -124,104 +119,6 @@ impl<'a> Work<'a> {
             view: View { system, solution, demands: self.demands },
             surfaces,
             neighbours: self.neighbours,
-        }
-    }
-
-    /// What equations say: contact, distances and angles, symmetry, patterns, the user's values.
-    pub fn relate(&mut self) {
-        let Some(solved) = self.solved.take() else { return };
-        let part = self.part(&solved);
-        let (mut proposals, vain) = asked::proposals(&part);
-        let wanted = |new: &Proposal| {
-            !self.demands.forbids(new.kind, &new.surfaces)
-                && !self.demands.forced().any(|d| d.kind == new.kind && d.regions == new.surfaces)
-        };
-        for found in [contact::proposals, pattern::proposals, mirror::proposals, gaps::proposals] {
-            proposals.extend(found(&part).into_iter().filter(wanted));
-        }
-        let vain = vain
-            .into_iter()
-            .filter_map(|demand| self.demands.relations.iter().find(|known| *known == demand))
-            .collect();
-        self.vain = vain;
-        self.solved = Some(self.impose(solved, proposals));
-    }
-
-    /// Dimensions onto the user's grid.
-    pub fn round(&mut self) {
-        let Some(solved) = self.solved.take() else { return };
-        let proposals = rounding::proposals(&self.part(&solved));
-        self.solved = Some(self.impose(solved, proposals));
-    }
-
-    /// Weighs proposals and solves under those that stand; what cannot be solved, or pulls a surface
-    /// too far, is rolled back.
-    fn impose(
-        &mut self,
-        solved: (System, Solution),
-        proposals: Vec<Proposal>,
-    ) -> (System, Solution) {
-        if proposals.is_empty() {
-            return solved;
-        }
-        let (system, solution) = &solved;
-        let known = self.related.len();
-        let outcomes = weigh(system, solution, &proposals, self.demands.gate);
-        self.related.extend(proposals.into_iter().zip(outcomes));
-        for _ in 0..EVICTIONS {
-            // The unknowns are the same: start where the relations so far hold.
-            let next = solve(self.items, system, &solution.state, &self.equations());
-            let excess: Vec<f64> = match &next {
-                Some(next) => next
-                    .increase
-                    .iter()
-                    .zip(&solution.increase)
-                    .map(|(new, old)| new - old)
-                    .collect(),
-                None => vec![f64::INFINITY; self.items.len()],
-            };
-            let worst = excess.iter().copied().fold(0.0, f64::max);
-            let sent = if worst > TOO_MUCH { self.roll_back(known, &excess, worst) } else { 0 };
-            match next {
-                Some(next) if sent == 0 => {
-                    self.confirm(known, system, &next);
-                    return (solved.0, next);
-                }
-                None if sent == 0 => break,
-                _ => {}
-            }
-        }
-        self.related[known..].iter_mut().for_each(|(_, outcome)| outcome.refuse());
-        solved
-    }
-
-    /// Rolls back what pulls the surfaces that moved most, and of that what the data like least; how
-    /// many relations that were.
-    fn roll_back(&mut self, known: usize, excess: &[f64], worst: f64) -> usize {
-        let pulls = |p: &Proposal| {
-            !p.forced && p.surfaces.iter().any(|&i| excess[i] > TOO_MUCH.max(worst / 2.0))
-        };
-        let mut open: Vec<(f64, &mut Outcome)> = self.related[known..]
-            .iter_mut()
-            .filter(|(proposal, _)| pulls(proposal))
-            .filter_map(|(_, outcome)| match outcome.verdict {
-                Verdict::Accepted(chi_squared) => Some((chi_squared, outcome)),
-                _ => None,
-            })
-            .collect();
-        open.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let sent = open.len().div_ceil(2);
-        open.into_iter().take(sent).for_each(|(_, outcome)| outcome.refuse());
-        sent
-    }
-
-    /// What was implied by relations that were rolled back does not hold.
-    fn confirm(&mut self, known: usize, system: &System, solution: &Solution) {
-        for (proposal, outcome) in &mut self.related[known..] {
-            let holds = |e: &Equation| e.value(system, &solution.state).abs() < FOLLOWS;
-            if outcome.verdict == Verdict::Implied && !proposal.equations.iter().all(holds) {
-                outcome.verdict = Verdict::Refused(f64::INFINITY);
-            }
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::math::Point;
 use crate::recognise::scene::{Marks, ROUNDING, Scene};
 use crate::surface::select::{self, Choice};
-use crate::surface::{Scatter, Shape, Surface, general, refine};
+use crate::surface::{Scatter, Shape, Surface, Waves, general, refine};
 
 use super::confidence::{confidence, is_noteworthy};
 
@@ -30,6 +30,8 @@ pub struct Recognised {
     pub support: Vec<Point>,
     /// Standard deviation of one of them, as if they erred independently.
     pub sigma: f64,
+    /// How they err on a scan, where that could be measured.
+    pub waves: Option<Waves>,
     /// How it may still move under the relations, once those hold.
     pub scatter: Option<Scatter>,
 }
@@ -51,7 +53,7 @@ pub fn fit(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> 
     // The samples stand for all vertices, of which so many err independently.
     let independent = independent(gathered.total as f64, scene.evidence.independent);
     let sigma = sigma * (support.len() as f64 / independent.max(1.0)).sqrt();
-    Recognised { surface, confidence, runner_up, support, sigma, scatter: None }
+    Recognised { surface, confidence, runner_up, support, sigma, waves: None, scatter: None }
 }
 
 /// Fewest and most independent samples of a region on a scan, whose waves are long: a small region
@@ -76,6 +78,7 @@ fn unexplained(known: &Surface) -> Recognised {
         runner_up: None,
         support: Vec::new(),
         sigma: 0.0,
+        waves: None,
         scatter: None,
     }
 }

@@ -19,7 +19,7 @@ use crate::partition::Regions;
 use crate::recognise::assign::models;
 use crate::recognise::scene::{Marks, Scene};
 use crate::result::{Region, Side};
-use crate::surface::{Cylinder, Scatter, Surface, centroid, uncertainty};
+use crate::surface::{Cylinder, Scatter, Surface, Waves, centroid, uncertainty};
 
 /// Regions between two looks at the clock.
 const CHUNK: usize = 32;
@@ -52,6 +52,11 @@ pub fn fit_all(
             fit(scene, regions.faces(first + i), known, marks)
         };
         found.par_extend(known.par_iter().enumerate().map_init(Marks::default, one));
+    }
+    if scene.correlated() {
+        let fits: Vec<_> = found.iter().map(|fit| (&fit.surface, fit.support.as_slice())).collect();
+        let waves = Waves::measure(&fits);
+        found.iter_mut().for_each(|fit| fit.waves = waves);
     }
     Ok(found)
 }

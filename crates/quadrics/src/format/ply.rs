@@ -5,6 +5,7 @@
 //! `vertex_indices` or `vertex_index`; all else is stepped over.
 
 mod header;
+mod plain;
 
 use super::build::Builder;
 use super::scan::Scanner;
@@ -75,6 +76,12 @@ fn read_vertices(element: &Element, rows: &mut Rows, builder: &mut Builder) -> R
             error("PLY", format!("the vertices have no property {name}: is this a mesh?"))
         })?;
     }
+    if builder.positions.is_empty()
+        && let Some(positions) = plain::vertices(element, axes, rows)
+    {
+        builder.positions = positions;
+        return Ok(());
+    }
     for row in 0..element.count {
         let mut position = [0.0; 3];
         for (i, property) in element.properties.iter().enumerate() {
@@ -99,6 +106,12 @@ fn read_faces(element: &Element, rows: &mut Rows, builder: &mut Builder) -> Resu
     let Some(indices) = names.iter().find_map(|name| element.position(name, true)) else {
         return Err(error("PLY", "the faces have no list vertex_indices: export the mesh again"));
     };
+    if let Some(triangles) = plain::triangles(element, rows) {
+        for [a, b, c] in triangles {
+            builder.polygon(&[builder.index(a)?, builder.index(b)?, builder.index(c)?])?;
+        }
+        return Ok(());
+    }
     let mut corners = Vec::new();
     for row in 0..element.count {
         for (i, property) in element.properties.iter().enumerate() {

@@ -18,8 +18,11 @@ pub struct Adjacency {
 impl Adjacency {
     /// Adjacency of `faces` over `vertices` vertices. Edges of more than two faces have no neighbours.
     pub fn new(faces: &[[u32; 3]], vertices: usize) -> Self {
-        let (offsets, incident) = faces_around_vertices(faces, vertices);
-        Self { neighbours: face_neighbours(faces, vertices), offsets, incident }
+        let (neighbours, (offsets, incident)) = rayon::join(
+            || face_neighbours(faces, vertices),
+            || faces_around_vertices(faces, vertices),
+        );
+        Self { neighbours, offsets, incident }
     }
 
     /// The faces at a vertex, in ascending order.

@@ -10,7 +10,7 @@ use super::caps::split_at_caps;
 use super::orient::{Census, orient};
 use super::substitute::substitutes;
 use super::validate::{is_usable, validate};
-use super::weld::Welder;
+use super::weld::{Welder, are_distinct, normal};
 use super::{Mesh, NONE};
 use crate::error::Result;
 use crate::math::Point;
@@ -69,6 +69,11 @@ pub(crate) fn is_flat([a, b, c]: [Point; 3]) -> bool {
 fn weld(mesh: &Mesh, repairs: &mut Vec<Repair>) -> Mesh {
     let mut number = vec![NONE; mesh.positions.len()];
     mesh.faces.iter().flatten().for_each(|&v| number[v as usize] = 0);
+    // Most files keep every vertex once.
+    if number.iter().all(|&number| number != NONE) && are_distinct(&mesh.positions) {
+        let positions = mesh.positions.par_iter().map(|position| normal(*position)).collect();
+        return Mesh { positions, faces: mesh.faces.clone() };
+    }
     let mut welder = Welder::new();
     let mut unused = 0;
     let mut unusable = 0;

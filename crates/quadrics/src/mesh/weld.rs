@@ -6,6 +6,8 @@
 
 use std::hash::{BuildHasher, RandomState};
 
+use rayon::prelude::*;
+
 use crate::math::Point;
 
 const EMPTY: u32 = u32::MAX;
@@ -85,8 +87,17 @@ impl Welder {
     }
 }
 
+/// Whether no two positions are equal. Rarely, and then wrongly, it says that some are.
+pub(crate) fn are_distinct(positions: &[Point]) -> bool {
+    let keys = [0, 21, 42].map(|turn| SPREAD.rotate_left(turn));
+    let mut hashes: Vec<usize> =
+        positions.par_iter().map(|position| hash(&normal(*position), &keys)).collect();
+    hashes.par_sort_unstable();
+    hashes.par_windows(2).all(|pair| pair[0] != pair[1])
+}
+
 /// Adding zero turns -0.0 into 0.0 and leaves all else alone.
-fn normal(position: Point) -> Point {
+pub(crate) fn normal(position: Point) -> Point {
     Point::from(position.coords.add_scalar(0.0))
 }
 
@@ -131,6 +142,15 @@ mod tests {
             assert_eq!(one.add_all::<7>(batch), batch.map(|position| other.add(position)));
         }
         assert_eq!(one.into_positions(), other.into_positions());
+    }
+
+    #[test]
+    fn one_position_that_comes_twice_is_found_among_many() {
+        let mut positions: Vec<_> =
+            (0..5000).map(|i| Point::new(f64::from(i % 70), f64::from(i / 70), 0.0)).collect();
+        assert!(are_distinct(&positions));
+        positions[4321] = Point::new(11.0, 2.0, -0.0);
+        assert!(!are_distinct(&positions));
     }
 
     #[test]

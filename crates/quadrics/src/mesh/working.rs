@@ -16,8 +16,10 @@ pub struct Working {
 impl Working {
     /// Computes what follows from a mesh whose indices are in range.
     pub fn new(mesh: Mesh) -> Self {
-        let geometry = Geometry::new(&mesh);
-        let adjacency = Adjacency::new(&mesh.faces, mesh.positions.len());
+        let (geometry, adjacency) = rayon::join(
+            || Geometry::new(&mesh),
+            || Adjacency::new(&mesh.faces, mesh.positions.len()),
+        );
         Self { mesh, geometry, adjacency }
     }
 

@@ -1,6 +1,7 @@
 //! Into the unit cube along a part's own axes, so that it does not matter how it lies in its file.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use rayon::prelude::*;
 
 use super::order::{Ordered, ordered};
 use super::to_unit_cube;
@@ -31,10 +32,10 @@ pub fn in_own_cube(mesh: Mesh) -> Result<Placed> {
     let (mesh, first, upright) = in_unit_cube(mesh)?;
     let turn: Similarity = nalgebra::convert(own_axes(&mesh));
     let (mut mesh, second, into) = in_unit_cube(moved(mesh, &turn))?;
-    for point in &mut mesh.positions {
+    mesh.positions.par_iter_mut().for_each(|point| {
         point.coords.apply(|c| *c = (*c / GRID).round() * GRID);
-    }
-    let former = second.into_iter().map(|face| first[face as usize]).collect();
+    });
+    let former = second.into_par_iter().map(|face| first[face as usize]).collect();
     Ok((mesh, former, into * turn * upright))
 }
 
@@ -43,7 +44,7 @@ pub fn in_own_cube(mesh: Mesh) -> Result<Placed> {
 const GRID: f64 = 1.0 / (1u64 << 30) as f64;
 
 fn moved(mut mesh: Mesh, by: &Similarity) -> Mesh {
-    mesh.positions.iter_mut().for_each(|point| *point = by * *point);
+    mesh.positions.par_iter_mut().for_each(|point| *point = by * *point);
     mesh
 }
 

@@ -3,7 +3,7 @@
 //! Whatever draws faces at random or visits them in turn then does the same whichever order the file
 //! has them in; and neighbours in space become neighbours in memory.
 
-use rayon::slice::ParallelSliceMut;
+use rayon::prelude::*;
 
 use crate::math::Point;
 use crate::mesh::Mesh;
@@ -25,7 +25,7 @@ const OFFSET: f64 = 0.381_966;
 /// Brings vertices and faces of a mesh in the unit cube, without unused vertices, into that order.
 pub fn ordered(mesh: &Mesh) -> Ordered {
     let mut vertices: Vec<(u64, u32)> =
-        mesh.positions.iter().zip(0..).map(|(p, i)| (key(*p), i)).collect();
+        mesh.positions.par_iter().enumerate().map(|(i, p)| (key(*p), i as u32)).collect();
     let place = |i: u32| mesh.positions[i as usize].coords;
     vertices.par_sort_unstable_by(|a, b| {
         // Positions, somewhere in memory, are looked up only where they decide.
@@ -45,11 +45,15 @@ pub fn ordered(mesh: &Mesh) -> Ordered {
         corners.rotate_left(least);
         corners
     };
-    let mut faces: Vec<([u32; 3], u32)> =
-        mesh.faces.iter().zip(0..).map(|(corners, i)| (renumbered(corners), i)).collect();
+    let mut faces: Vec<([u32; 3], u32)> = mesh
+        .faces
+        .par_iter()
+        .enumerate()
+        .map(|(i, corners)| (renumbered(corners), i as u32))
+        .collect();
     faces.par_sort_unstable();
-    let (faces, former) = faces.into_iter().unzip();
-    let positions = vertices.iter().map(|&(_, old)| mesh.positions[old as usize]).collect();
+    let (faces, former) = faces.into_par_iter().unzip();
+    let positions = vertices.par_iter().map(|&(_, old)| mesh.positions[old as usize]).collect();
     Ordered { mesh: Mesh { positions, faces }, former }
 }
 

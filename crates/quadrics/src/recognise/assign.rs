@@ -1,12 +1,8 @@
-//! Which face belongs to which surface: least energy by expansion moves (Boykov, Veksler and Zabih,
-//! PAMI 2001), over the faces where two surfaces compete.
+//! Which face belongs to which surface: what a face costs on each, and regions that hang together.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use rayon::prelude::*;
-
-use super::cut::Cut;
 use super::scene::{Marks, Scene};
 use crate::partition::{Regions, UNLABELLED, components};
 use crate::surface::{Shape, Surface};
@@ -60,8 +56,6 @@ const FREE_FORM: f64 = 8.0;
 const SMOOTHNESS: f64 = 2.0;
 const SMOOTHNESS_NOISY: f64 = 3.0;
 const SMOOTHNESS_SCAN: f64 = 0.3;
-/// A face is worth asking when the new surface is at most so much worse than its own.
-const SLACK: f64 = 4.0;
 
 /// Minus the log-likelihood of a face on a surface: `d²/2σ²` of its corners and a capped normal term.
 pub fn face_cost(scene: &Scene, model: &Model, face: usize) -> f64 {
@@ -122,106 +116,6 @@ pub fn flood(scene: &Scene, models: &[Model], labels: &mut [u32]) {
         labels[face] = label;
         for other in scene.adjacency.across(face).filter(|&o| labels[o] == UNLABELLED) {
             push(&mut queue, other, label);
-        }
-    }
-}
-
-/// Lets every surface in turn take the faces that lower the energy.
-pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
-    let mut current: Vec<f64> = labels
-        .par_iter()
-        .with_min_len(4096)
-        .enumerate()
-        .map(|(face, &label)| face_cost(scene, &models[label as usize], face))
-        .collect();
-    let mut regions = vec![Vec::new(); models.len()];
-    for (face, &label) in labels.iter().enumerate() {
-        regions[label as usize].push(face as u32);
-    }
-    let mut seen = Marks::default();
-    for (label, faces) in regions.iter().enumerate() {
-        expand_one(scene, models, label as u32, faces, labels, &mut current, &mut seen);
-    }
-}
-
-fn expand_one(
-    scene: &Scene,
-    models: &[Model],
-    label: u32,
-    region: &[u32],
-    labels: &mut [u32],
-    current: &mut [f64],
-    seen: &mut Marks,
-) {
-    let model = &models[label as usize];
-    // Faces of others, reached from the region, that might come over.
-    seen.clear(labels.len());
-    let mut active: Vec<u32> = Vec::new();
-    let mut costs: Vec<f64> = Vec::new();
-    let mut next = 0;
-    let mut border: Vec<u32> = region
-        .iter()
-        .copied()
-        .filter(|&f| labels[f as usize] == label)
-        .flat_map(|f| scene.adjacency.neighbours[f as usize])
-        .filter(|&f| f != crate::mesh::NONE && labels[f as usize] != label)
-        .collect();
-    loop {
-        for face in border.drain(..) {
-            if seen.mark(face) {
-                let cost = face_cost(scene, model, face as usize);
-                if cost < current[face as usize] + SLACK {
-                    active.push(face);
-                    costs.push(cost);
-                }
-            }
-        }
-        if next == active.len() {
-            break;
-        }
-        let face = active[next] as usize;
-        next += 1;
-        border
-            .extend(scene.adjacency.across(face).filter(|&f| labels[f] != label).map(|f| f as u32));
-    }
-    if active.is_empty() {
-        return;
-    }
-    let mut index = std::collections::HashMap::with_capacity(active.len());
-    active.iter().enumerate().for_each(|(i, &face)| {
-        index.insert(face, i);
-    });
-    // Source: the face comes over. Sink: it stays.
-    let mut cut = Cut::new(active.len());
-    for (i, &face) in active.iter().enumerate() {
-        let face = face as usize;
-        let (mut stay, mut come) = (current[face], costs[i]);
-        for (edge, &other) in scene.adjacency.neighbours[face].iter().enumerate() {
-            if other == crate::mesh::NONE {
-                continue;
-            }
-            let length = border_cost(scene, face, edge);
-            let differ = if labels[other as usize] == labels[face] { 0.0 } else { length };
-            match index.get(&other) {
-                // Both come: no border. One comes: a border. Both stay: as it was.
-                Some(&j) if j > i => {
-                    stay += differ;
-                    cut.edge(i, j, length, length - differ);
-                }
-                Some(_) => {}
-                None if labels[other as usize] == label => stay += length,
-                None => {
-                    stay += differ;
-                    come += length;
-                }
-            }
-        }
-        cut.node(i, stay, come);
-    }
-    for (i, stays) in cut.solve().into_iter().enumerate() {
-        if !stays {
-            labels[active[i] as usize] = label;
-            current[active[i] as usize] = costs[i];
         }
     }
 }

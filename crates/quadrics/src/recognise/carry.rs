@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::assign::{self, Model, face_cost};
 use super::scene::Scene;
-use super::{detect, evidence, merge, moves};
+use super::{detect, evidence, expand, merge, moves};
 use crate::context::Context;
 use crate::error::Result;
 use crate::math::Vector;
@@ -45,7 +45,8 @@ pub fn carry(
 }
 
 /// Seeks surfaces where none that was carried up explains the faces: what is too small for the
-/// coarser mesh to show.
+/// coarser mesh to show. The faces of a mesh that is `faceted` lie off their surfaces, as most others
+/// of their region do.
 ///
 /// # Errors
 /// Cancellation.
@@ -54,10 +55,14 @@ pub fn complete(
     scene: &Scene,
     models: &mut Vec<Model>,
     labels: &mut Labels,
+    faceted: bool,
 ) -> Result<()> {
     let surfaces: Vec<Surface> = models.iter().map(|model| model.surface.clone()).collect();
-    // Facets lie off the surface that they were made from, but nearly all of them.
-    let most = evidence::distances(scene, &surfaces, labels, MOST);
+    let most = if faceted {
+        evidence::distances(scene, &surfaces, labels, MOST)
+    } else {
+        vec![0.0; surfaces.len()]
+    };
     let turn = 2.0 - 2.0 * detect::CREASE.cos();
     let strange = |(face, &label): (usize, &u32)| {
         let (model, most) = (&models[label as usize], most[label as usize]);
@@ -118,7 +123,7 @@ fn explains(scene: &Scene, model: &Model, face: usize, near: f64, turn: f64) -> 
 
 /// Cuts between surfaces where they compete.
 pub fn settle(scene: &Scene, models: &mut Vec<Model>, labels: &mut Labels) {
-    assign::expand(scene, models, labels);
+    expand::expand(scene, models, labels);
     assign::connect(scene, models, labels);
     moves::tidy(models, labels);
 }

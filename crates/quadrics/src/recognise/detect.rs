@@ -1,8 +1,11 @@
 //! Surfaces from neighbourhoods: draw where nothing is explained yet, fit, grow, keep the largest.
 
 use rand::RngExt;
+use rayon::prelude::*;
 
 use super::assign::{Model, face_cost, side_of};
+use super::open::Open;
+use super::pool::Pool;
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
@@ -23,6 +26,10 @@ pub const CREASE: f64 = 0.6;
 /// residuals of a scan heavy-tailed: less cuts its regions to pieces.
 const REACH: f64 = 2.5;
 const REACH_SCAN: f64 = 4.0;
+/// Facets of a curved surface turn away from it by so much at least, in radians. Small bores have few:
+/// on clean meshes, where positions tell, 0.2 loses those of `nist_ctc_03` (decision 0002).
+const FACETS: f64 = 0.3;
+const FACETS_NOISY: f64 = 0.2;
 /// Vertices that a fit looks at while growing.
 const SAMPLES: usize = 120;
 /// Fewest faces of a region.
@@ -31,6 +38,8 @@ pub const FEWEST: usize = 10;
 const UNEXPLAINED: f64 = 12.0;
 /// A candidate is accepted while this share of what it saved is left by those before it.
 const KEPT: f64 = 0.9;
+/// Faces that tell how large the noise is: a region that has so many grows no further for that.
+const LOOSE: usize = 20_000;
 /// Most refits of a growing region.
 const REFITS: usize = 8;
 
@@ -46,20 +55,10 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    /// What the faces save at the `costs` that they have, and the faces that would cost less, with
-    /// their new cost.
-    fn saving(&self, scene: &Scene, costs: &[f64]) -> (f64, Vec<(u32, f64)>) {
+    /// What each of the faces costs.
+    fn costs(&self, scene: &Scene) -> Vec<f64> {
         let model = Model { surface: self.choice.surface.clone(), side: self.side };
-        let mut saved = 0.0;
-        let mut taken = Vec::new();
-        for &face in &self.faces {
-            let (cost, before) = (face_cost(scene, &model, face as usize), costs[face as usize]);
-            if cost < before {
-                saved += before - cost;
-                taken.push((face, cost));
-            }
-        }
-        (saved, taken)
+        self.faces.iter().map(|&face| face_cost(scene, &model, face as usize)).collect()
     }
 
     /// Faces explained for the price of the surface: a torus over several ring bands is worth less
@@ -122,67 +121,106 @@ pub fn explain(
     share: f64,
 ) -> Result<Option<Vec<Candidate>>> {
     let mut found: Vec<Candidate> = Vec::new();
-    let mut work = Workspace::default();
+    let pool = Pool::default();
     let cost = |&label: &u32| if label == UNLABELLED { UNEXPLAINED } else { 0.0 };
     let mut costs: Vec<f64> = labels.iter().map(cost).collect();
     // On a clean mesh neighbours take nothing that is not theirs; what is labelled from the start stays.
     let bare = labels.iter().all(|&label| label == UNLABELLED);
     let growth = if bare && scene.noisy() { Growth::Over } else { Growth::Within };
-    let mut open: Vec<u32> =
-        (0..labels.len() as u32).filter(|&f| labels[f as usize] == UNLABELLED).collect();
-    let mut dead = vec![false; labels.len()];
-    let mut buried: Vec<u32> = Vec::new();
-    let total = open.len().max(1) as f64;
-    loop {
-        open.retain(|&f| labels[f as usize] == UNLABELLED && !dead[f as usize]);
-        if open.is_empty() {
-            return Ok(Some(found));
-        }
-        context.step("detect", 1.0 - open.len() as f64 / total)?;
-        let mut batch = Vec::new();
-        for _ in 0..BATCH {
-            let seed = open[context.rng.random_range(0..open.len())];
-            let candidate = propose(scene, seed, labels, growth, &mut work)
-                .filter(|candidate| candidate.faces.len() >= FEWEST)
-                .map(|candidate| (candidate.saving(scene, &costs).0, candidate))
-                .filter(|(saved, candidate)| *saved > candidate.price());
-            match candidate {
-                Some((saved, candidate)) => batch.push((saved, seed, candidate)),
-                None => bury(scene, seed, &mut dead, &mut buried),
-            }
-        }
-        let worth = |(saved, _, candidate): &(f64, u32, Candidate)| {
-            saved / select::cost(&candidate.choice.surface)
+    let mut waiting = Waiting::new(labels);
+    let total = waiting.open.len().max(1) as f64;
+    while !waiting.open.is_empty() {
+        context.step("detect", 1.0 - waiting.open.len() as f64 / total)?;
+        let seeds: Vec<u32> = (0..BATCH)
+            .map(|_| waiting.open.nth(context.rng.random_range(0..waiting.open.len())))
+            .collect();
+        let propose = |&seed: &u32| {
+            let candidate = pool.with(|work| propose(scene, seed, labels, growth, work))?;
+            let offer = Offer { seed, costs: candidate.costs(scene), candidate };
+            let saved = offer.saving(&costs);
+            let pays = offer.candidate.faces.len() >= FEWEST && saved > offer.candidate.price();
+            pays.then_some((saved, offer))
         };
+        let proposed: Vec<_> = seeds.par_iter().with_max_len(1).map(propose).collect();
+        for (&seed, _) in seeds.iter().zip(&proposed).filter(|(_, proposed)| proposed.is_none()) {
+            waiting.bury(scene, seed, labels);
+        }
+        let mut batch: Vec<(f64, Offer)> = proposed.into_iter().flatten().collect();
+        let worth =
+            |(saved, offer): &(f64, Offer)| saved / select::cost(&offer.candidate.choice.surface);
         batch.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-        for (before, seed, candidate) in batch {
-            let (saved, taken) = candidate.saving(scene, &costs);
-            if saved >= KEPT * before {
+        for (before, offer) in batch {
+            if offer.saving(&costs) >= KEPT * before {
                 let id = first + found.len() as u32;
-                for (face, cost) in taken {
-                    labels[face as usize] = id;
-                    costs[face as usize] = cost;
+                for (face, cost) in offer.each() {
+                    if cost < costs[face as usize] {
+                        waiting.take(face, labels);
+                        labels[face as usize] = id;
+                        costs[face as usize] = cost;
+                    }
                 }
                 // A seed that its own surface does not explain would be drawn for ever.
-                if labels[seed as usize] == UNLABELLED {
-                    bury(scene, seed, &mut dead, &mut buried);
+                if labels[offer.seed as usize] == UNLABELLED {
+                    waiting.bury(scene, offer.seed, labels);
                 }
-                found.push(candidate);
+                found.push(offer.candidate);
             }
         }
-        buried.retain(|&f| labels[f as usize] == UNLABELLED);
-        if buried.len() as f64 > share * total {
+        if waiting.buried as f64 > share * total {
             return Ok(None);
         }
     }
+    Ok(Some(found))
 }
 
-/// A seed that led nowhere is not tried again, nor are the faces beside it.
-fn bury(scene: &Scene, seed: u32, dead: &mut [bool], buried: &mut Vec<u32>) {
-    for face in std::iter::once(seed as usize).chain(scene.adjacency.across(seed as usize)) {
-        if !std::mem::replace(&mut dead[face], true) {
-            buried.push(face as u32);
+/// A candidate, the seed that it grew from, and what its faces would cost.
+struct Offer {
+    seed: u32,
+    candidate: Candidate,
+    costs: Vec<f64>,
+}
+
+impl Offer {
+    fn each(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.candidate.faces.iter().copied().zip(self.costs.iter().copied())
+    }
+
+    /// What the faces that would cost less save at the `costs` that they have.
+    fn saving(&self, costs: &[f64]) -> f64 {
+        let saved = |(face, cost): (u32, f64)| (costs[face as usize] - cost).max(0.0);
+        self.each().map(saved).sum()
+    }
+}
+
+/// Faces that may still be drawn as seeds, and those that were given up.
+struct Waiting {
+    open: Open,
+    dead: Vec<bool>,
+    /// Dead ones without a label.
+    buried: usize,
+}
+
+impl Waiting {
+    fn new(labels: &[u32]) -> Self {
+        Self { open: Open::new(labels), dead: vec![false; labels.len()], buried: 0 }
+    }
+
+    /// A seed that led nowhere is not tried again, nor are the faces beside it.
+    fn bury(&mut self, scene: &Scene, seed: u32, labels: &[u32]) {
+        for face in std::iter::once(seed as usize).chain(scene.adjacency.across(seed as usize)) {
+            if !std::mem::replace(&mut self.dead[face], true) && labels[face] == UNLABELLED {
+                self.buried += 1;
+                self.open.close(face as u32);
+            }
         }
+    }
+
+    /// A face is about to get a label.
+    fn take(&mut self, face: u32, labels: &[u32]) {
+        if labels[face as usize] == UNLABELLED && self.dead[face as usize] {
+            self.buried -= 1;
+        }
+        self.open.close(face);
     }
 }
 
@@ -351,7 +389,9 @@ fn inliers_of<S: Shape>(
 ) -> Vec<u32> {
     let reach = if scene.correlated() { REACH_SCAN } else { REACH };
     let near = (reach * scene.evidence.sigma).powi(2);
-    let turn = (REACH * scene.evidence.normal_sigma).max(0.2).powi(2);
+    let facets = if scene.evidence.general { FACETS } else { FACETS_NOISY };
+    let turn = (REACH * scene.evidence.normal_sigma).max(facets).powi(2);
+    let limit = if growth == Growth::Loose { LOOSE } else { usize::MAX };
     let explains = |face: usize| {
         (growth == Growth::Over || labels[face] == UNLABELLED)
             && scene.squared_distance(shape, face) < near
@@ -369,7 +409,7 @@ fn inliers_of<S: Shape>(
         let from = faces.len();
         faces.push(start);
         let mut next = from;
-        while next < faces.len() {
+        while next < faces.len() && faces.len() < limit {
             let face = faces[next] as usize;
             next += 1;
             for other in scene.adjacency.across(face) {

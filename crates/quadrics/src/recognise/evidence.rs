@@ -6,7 +6,8 @@
 use rand::RngExt;
 use rayon::prelude::*;
 
-use super::detect::{Candidate, Growth, Workspace, most_misfit, propose};
+use super::detect::{Candidate, Growth, most_misfit, propose};
+use super::pool::Pool;
 use super::scene::{ROUNDING, Scene};
 use crate::context::Context;
 use crate::error::Result;
@@ -60,7 +61,7 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
     for round in 0..ROUNDS {
         context.step("noise", round as f64 / ROUNDS as f64)?;
         let mut rows: Vec<Row> = probe(scene, &seeds(context, scene, PROBES))
-            .into_iter()
+            .into_par_iter()
             .filter(|grown| grown.faces.len() >= FEWEST)
             .map(|grown| scatter(scene, &grown.choice.surface, &grown.faces))
             .collect();
@@ -207,13 +208,10 @@ fn seeds(context: &mut Context, scene: &Scene, count: usize) -> Vec<u32> {
 /// What grows from seeds.
 fn probe(scene: &Scene, seeds: &[u32]) -> Vec<Candidate> {
     let unlabelled = vec![UNLABELLED; scene.mesh.faces.len()];
-    seeds
-        .par_iter()
-        .map_init(Workspace::default, |work, &seed| {
-            propose(scene, seed, &unlabelled, Growth::Loose, work)
-        })
-        .flatten()
-        .collect()
+    let pool = Pool::default();
+    let grow =
+        |&seed: &u32| pool.with(|work| propose(scene, seed, &unlabelled, Growth::Loose, work));
+    seeds.par_iter().with_max_len(1).flat_map_iter(grow).collect()
 }
 
 /// Root mean square residual over the corners of some faces, and its correlation across edges.

@@ -64,12 +64,16 @@ pub fn unite(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
         .iter()
         .map(|&p| price[p as usize] > LABEL + coding(COEFFICIENTS, faces[p as usize]))
         .collect();
+    let mut touching: Vec<Vec<&Border>> = vec![Vec::new(); models.len()];
+    for border in &borders {
+        touching[border.one as usize].push(border);
+        touching[border.other as usize].push(border);
+    }
     // What lies mostly within a patch and continues it is a piece of it.
     let mut into = patch;
     for id in (0..models.len() as u32).filter(|&id| !free[id as usize]).collect::<Vec<_>>() {
-        let own = borders.iter().filter(|b| b.one == id || b.other == id);
         let (mut around, mut within, mut host) = (0.0, 0.0, None);
-        for border in own {
+        for border in &touching[id as usize] {
             let other = border.one + border.other - id;
             around += border.length;
             if border.smooth && free[other as usize] && into[other as usize] != id {

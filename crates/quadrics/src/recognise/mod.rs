@@ -6,12 +6,17 @@ pub mod count;
 mod cut;
 pub mod detect;
 pub mod evidence;
+pub mod expand;
 mod free_form;
 mod general;
 pub mod merge;
 pub mod moves;
+mod open;
+mod pool;
 pub mod scene;
 mod split;
+
+use rayon::prelude::*;
 
 use crate::context::Context;
 use crate::error::Result;
@@ -84,7 +89,7 @@ fn optimise(
     for round in 0..rounds {
         context.step("optimise", round as f64 / rounds as f64)?;
         context.timed("assign", |_| {
-            assign::expand(scene, models, labels);
+            expand::expand(scene, models, labels);
             assign::connect(scene, models, labels);
             moves::tidy(models, labels);
             moves::drop_needless(scene, models, labels);
@@ -125,8 +130,15 @@ fn energy(scene: &Scene, models: &[Model], labels: &[u32]) -> f64 {
         scene.geometry.areas[face] * assign::face_cost(scene, &models[label as usize], face)
     };
     let total = scene.geometry.areas.iter().sum::<f64>();
-    labels.iter().enumerate().map(cost).sum::<f64>() / total
+    // In chunks of one size: the last digit must not depend on the number of threads.
+    let of_chunk =
+        |(chunk, labels): (usize, &[u32])| (chunk * CHUNK..).zip(labels).map(cost).sum::<f64>();
+    let sums: Vec<f64> = labels.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+    sums.into_iter().sum::<f64>() / total
 }
+
+/// Faces whose costs are summed by one thread.
+const CHUNK: usize = 8192;
 
 /// The user's labels, each with the surface that fits it.
 fn given(context: &mut Context, scene: &Scene, labels: &[u32]) -> Result<(Labels, Vec<Model>)> {

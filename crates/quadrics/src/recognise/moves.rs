@@ -90,16 +90,16 @@ pub fn tidy(models: &mut Vec<Model>, labels: &mut [u32]) {
 
 /// Pairs of regions that touch, with the mean squared difference of normals across their border.
 pub fn borders(scene: &Scene, labels: &[u32]) -> Vec<(u32, u32, f64)> {
-    let mut edges: Vec<(u32, u32, f64)> = Vec::new();
-    for (face, &label) in labels.iter().enumerate() {
-        for other in scene.adjacency.neighbours[face] {
-            if other != NONE && labels[other as usize] > label {
-                let turn = (scene.normals[face] - scene.normals[other as usize]).norm_squared();
-                edges.push((label, labels[other as usize], turn));
-            }
-        }
-    }
-    edges.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
+    let of_face = |(face, &label): (usize, &u32)| {
+        let across = scene.adjacency.across(face).filter(move |&other| labels[other] > label);
+        across.map(move |other| {
+            let turn = (scene.normals[face] - scene.normals[other]).norm_squared();
+            (label, labels[other], turn)
+        })
+    };
+    let faces = labels.par_iter().with_min_len(4096).enumerate();
+    let mut edges: Vec<(u32, u32, f64)> = faces.flat_map_iter(of_face).collect();
+    edges.par_sort_unstable_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
     edges
         .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
         .map(|same| {

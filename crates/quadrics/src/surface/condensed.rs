@@ -6,6 +6,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::waves::Waves;
 use super::{Shape, Surface, centroid};
 use crate::math::{Point, Unit, Vector, frame};
 
@@ -36,6 +37,32 @@ impl Condensed {
     /// Condenses points that err by `sigma` each, independently. `None` for surfaces without such
     /// coordinates, without points, or where the points leave it undetermined.
     pub fn new(surface: &Surface, points: &[Point], sigma: f64) -> Option<Self> {
+        let mut condensed = Self::at(surface, points)?;
+        let mut sum: Option<DMatrix<f64>> = None;
+        for &point in points {
+            let Some(row) = condensed.derivatives(point) else { continue };
+            let row = DVector::from_vec(row);
+            sum.get_or_insert_with(|| DMatrix::zeros(row.len(), row.len()))
+                .ger(1.0, &row, &row, 1.0);
+        }
+        condensed.information = sum? / (sigma * sigma);
+        condensed.known()
+    }
+
+    /// Condenses points that err as on a scan: the fit is that of independent errors, its covariance
+    /// that of errors which neighbours share (the "sandwich" of generalised least squares).
+    pub fn under(surface: &Surface, points: &[Point], waves: &Waves) -> Option<Self> {
+        let mut condensed = Self::at(surface, points)?;
+        let (rows, heard) = condensed.rows(points, HEARD)?;
+        let normal = rows.transpose() * &rows;
+        let spread = rows.transpose() * waves.covariance(&heard, points.len()) * &rows;
+        let misfit = waves.misfit(surface, points).max(1.0);
+        condensed.information = &normal * spread.cholesky()?.inverse() * &normal / misfit;
+        condensed.known()
+    }
+
+    /// The frame that coordinates refer to; nothing is known yet.
+    fn at(surface: &Surface, points: &[Point]) -> Option<Self> {
         let center = centroid(points)?;
         let direction = direction(surface).unwrap_or(Vector::z_axis());
         let foot = match surface {
@@ -49,16 +76,21 @@ impl Condensed {
         let (u, v) = frame(&direction);
         let frame = [u.into_inner(), v.into_inner(), direction.into_inner()];
         let information = DMatrix::zeros(0, 0);
-        let mut condensed = Self { surface: surface.clone(), foot, information, frame };
-        let mut sum: Option<DMatrix<f64>> = None;
-        for &point in points {
-            let Some(row) = condensed.derivatives(point) else { continue };
-            let row = DVector::from_vec(row);
-            sum.get_or_insert_with(|| DMatrix::zeros(row.len(), row.len()))
-                .ger(1.0, &row, &row, 1.0);
-        }
-        condensed.information = sum? / (sigma * sigma);
-        (condensed.determined() && condensed.small()).then_some(condensed)
+        Some(Self { surface: surface.clone(), foot, information, frame })
+    }
+
+    fn known(self) -> Option<Self> {
+        (self.determined() && self.small()).then_some(self)
+    }
+
+    /// Derivatives at no more than so many of the points, one row each, and those points.
+    fn rows(&self, points: &[Point], most: usize) -> Option<(DMatrix<f64>, Vec<Point>)> {
+        let step = points.len().div_ceil(most).max(1);
+        let each = |point: &Point| Some((self.derivatives(*point)?, *point));
+        let (rows, heard): (Vec<Vec<f64>>, Vec<Point>) =
+            points.iter().step_by(step).filter_map(each).unzip();
+        let columns = rows.first()?.len();
+        Some((DMatrix::from_row_iterator(rows.len(), columns, rows.into_iter().flatten()), heard))
     }
 
     /// Derivatives of the distance of a point by the coordinates.
@@ -158,6 +190,17 @@ impl Condensed {
     }
 }
 
+/// The derivatives at some of the points of a surface, and those points, for whoever looks at residuals.
+pub fn rows(
+    surface: &Surface,
+    points: &[Point],
+    most: usize,
+) -> Option<(DMatrix<f64>, Vec<Point>)> {
+    Condensed::at(surface, points)?.rows(points, most)
+}
+
+/// Points of a region that speak for all where errors go together: every pair of them counts.
+const HEARD: usize = 150;
 /// Standard deviation, in radians and sizes, from which on a fit is no small neighbourhood.
 const VAGUE: f64 = 0.5;
 

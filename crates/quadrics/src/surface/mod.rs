@@ -24,6 +24,7 @@ pub mod start;
 pub mod taubin;
 mod torus;
 mod uncertainty;
+mod waves;
 
 pub use condensed::{Condensed, direction};
 pub use cone::Cone;
@@ -35,6 +36,7 @@ pub use sphere::Sphere;
 pub use start::Samples;
 pub use torus::Torus;
 pub use uncertainty::{Scatter, uncertainty};
+pub use waves::Waves;
 
 use crate::math::{Point, Similarity, Unit};
 use kind::Class;
