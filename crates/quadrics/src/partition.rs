@@ -2,9 +2,11 @@
 
 mod hand_out;
 mod separate;
+mod trees;
 
 pub use hand_out::hand_out;
 pub use separate::separate;
+pub(crate) use trees::{join, root};
 
 use rayon::prelude::*;
 
@@ -126,25 +128,6 @@ pub fn components(labels: &[u32], adjacency: &Adjacency) -> (Vec<u32>, Vec<u32>)
         }
     }
     (component, sizes)
-}
-
-/// Joins the trees of two faces; `parent` has the faces from `first` on.
-fn join(parent: &mut [u32], first: u32, one: u32, other: u32) {
-    let (one, other) = (root(parent, first, one), root(parent, first, other));
-    parent[(one.max(other) - first) as usize] = one.min(other);
-}
-
-/// The first face of a tree; halves the way to it.
-fn root(parent: &mut [u32], first: u32, mut face: u32) -> u32 {
-    loop {
-        let above = parent[(face - first) as usize];
-        if above == face {
-            return face;
-        }
-        let next = parent[(above - first) as usize];
-        parent[(face - first) as usize] = next;
-        face = next;
-    }
 }
 
 #[cfg(test)]

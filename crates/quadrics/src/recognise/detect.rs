@@ -4,7 +4,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 
 use super::assign::{Model, face_cost, side_of};
-use super::open::Open;
+use super::open::Waiting;
 use super::pool::Pool;
 use super::scene::{Marks, Scene};
 use crate::context::Context;
@@ -26,8 +26,8 @@ pub const CREASE: f64 = 0.6;
 /// residuals of a scan heavy-tailed: less cuts its regions to pieces.
 const REACH: f64 = 2.5;
 const REACH_SCAN: f64 = 4.0;
-/// Facets of a curved surface turn away from it by so much at least, in radians. Small bores have few:
-/// on clean meshes, where positions tell, 0.2 loses those of `nist_ctc_03` (decision 0002).
+/// Facets of a curved surface may turn away from it by so much, in radians. Those of small bores do by
+/// more than 0.2; on clean meshes positions tell where the surface ends (decision 0002).
 const FACETS: f64 = 0.3;
 const FACETS_NOISY: f64 = 0.2;
 /// Vertices that a fit looks at while growing.
@@ -189,38 +189,6 @@ impl Offer {
     fn saving(&self, costs: &[f64]) -> f64 {
         let saved = |(face, cost): (u32, f64)| (costs[face as usize] - cost).max(0.0);
         self.each().map(saved).sum()
-    }
-}
-
-/// Faces that may still be drawn as seeds, and those that were given up.
-struct Waiting {
-    open: Open,
-    dead: Vec<bool>,
-    /// Dead ones without a label.
-    buried: usize,
-}
-
-impl Waiting {
-    fn new(labels: &[u32]) -> Self {
-        Self { open: Open::new(labels), dead: vec![false; labels.len()], buried: 0 }
-    }
-
-    /// A seed that led nowhere is not tried again, nor are the faces beside it.
-    fn bury(&mut self, scene: &Scene, seed: u32, labels: &[u32]) {
-        for face in std::iter::once(seed as usize).chain(scene.adjacency.across(seed as usize)) {
-            if !std::mem::replace(&mut self.dead[face], true) && labels[face] == UNLABELLED {
-                self.buried += 1;
-                self.open.close(face as u32);
-            }
-        }
-    }
-
-    /// A face is about to get a label.
-    fn take(&mut self, face: u32, labels: &[u32]) {
-        if labels[face as usize] == UNLABELLED && self.dead[face as usize] {
-            self.buried -= 1;
-        }
-        self.open.close(face);
     }
 }
 

@@ -6,7 +6,7 @@ use super::moves::{LABEL, tidy};
 use super::scene::Scene;
 use crate::math::Point;
 use crate::mesh::NONE;
-use crate::partition::{Regions, UNLABELLED};
+use crate::partition::{Regions, UNLABELLED, join, root};
 use crate::surface::Surface;
 use crate::surface::select;
 
@@ -49,10 +49,9 @@ pub fn unite(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
         |id: u32| matches!(models[id as usize].surface, Surface::Quadric(_) | Surface::Torus(_));
     let mut patch: Vec<u32> = (0..models.len() as u32).collect();
     for border in borders.iter().filter(|b| b.smooth && general(b.one) && general(b.other)) {
-        let (one, other) = (root(&patch, border.one), root(&patch, border.other));
-        patch[one.max(other) as usize] = one.min(other);
+        join(&mut patch, 0, border.one, border.other);
     }
-    let patch: Vec<u32> = (0..models.len() as u32).map(|id| root(&patch, id)).collect();
+    let patch: Vec<u32> = (0..models.len() as u32).map(|id| root(&mut patch, 0, id)).collect();
     let mut price = vec![0.0; models.len()];
     let mut faces = vec![0usize; models.len()];
     for (id, &patch) in patch.iter().enumerate() {
@@ -101,13 +100,6 @@ pub fn unite(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
 /// Nats that so many coefficients cost a region of so many faces, as in the choice of types.
 fn coding(coefficients: f64, faces: usize) -> f64 {
     coefficients * (faces as f64 / 2.0).max(2.0).ln()
-}
-
-fn root(parent: &[u32], mut id: u32) -> u32 {
-    while parent[id as usize] != id {
-        id = parent[id as usize];
-    }
-    id
 }
 
 /// Where two regions touch.

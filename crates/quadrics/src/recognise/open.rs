@@ -1,5 +1,6 @@
 //! The faces that wait for a surface, to be drawn from at random.
 
+use super::scene::Scene;
 use crate::partition::UNLABELLED;
 
 /// Faces that are counted together: closing one costs a step, finding one a walk over the blocks.
@@ -52,6 +53,40 @@ impl Open {
         let faces = block * BLOCK..self.open.len();
         let found = faces.filter(|&face| self.open[face]).nth(before);
         found.expect("the block has as many") as u32
+    }
+}
+
+/// Faces that may still be drawn as seeds, and those that were given up.
+pub struct Waiting {
+    /// Faces that may be drawn.
+    pub open: Open,
+    dead: Vec<bool>,
+    /// Dead ones without a label.
+    pub buried: usize,
+}
+
+impl Waiting {
+    /// The faces without a label.
+    pub fn new(labels: &[u32]) -> Self {
+        Self { open: Open::new(labels), dead: vec![false; labels.len()], buried: 0 }
+    }
+
+    /// A seed that led nowhere is not tried again, nor are the faces beside it.
+    pub fn bury(&mut self, scene: &Scene, seed: u32, labels: &[u32]) {
+        for face in std::iter::once(seed as usize).chain(scene.adjacency.across(seed as usize)) {
+            if !std::mem::replace(&mut self.dead[face], true) && labels[face] == UNLABELLED {
+                self.buried += 1;
+                self.open.close(face as u32);
+            }
+        }
+    }
+
+    /// A face is about to get a label.
+    pub fn take(&mut self, face: u32, labels: &[u32]) {
+        if labels[face as usize] == UNLABELLED && self.dead[face as usize] {
+            self.buried -= 1;
+        }
+        self.open.close(face);
     }
 }
 
