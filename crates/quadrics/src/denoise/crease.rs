@@ -27,7 +27,7 @@ impl Creases<'_> {
     /// Where a vertex goes, as far as its neighbours allow it.
     pub fn place(&self, vertex: usize, goals: &[Goal]) -> Point {
         let noisy = &self.noisy[vertex];
-        let way = self.settle(vertex, noisy, goals) - noisy.position;
+        let way = self.settle(vertex, goals) - noisy.position;
         let way = self.usual_height(vertex).map_or(way, |usual| noisy.held(way, usual));
         noisy.position + way
     }
@@ -50,7 +50,8 @@ impl Creases<'_> {
 
     /// Where its surfaces send a vertex: to their joint, or without the one furthest off to that of
     /// those that are left, if the crease is believed; else to one of the last two.
-    fn settle(&self, vertex: usize, noisy: &Noisy, goals: &[Goal]) -> Point {
+    fn settle(&self, vertex: usize, goals: &[Goal]) -> Point {
+        let noisy = &self.noisy[vertex];
         let (mut at, mut goals) = (self.regions[vertex].clone(), goals.to_vec());
         let mut joint = self.joints[vertex];
         while goals.len() > 1 {

@@ -207,4 +207,20 @@ mod tests {
         );
         assert_eq!(at(0.15, 0.1).alone(&[]).z, 0.15);
     }
+
+    #[test]
+    fn a_way_is_cut_where_it_leads_out_of_the_usual_height() {
+        let vertex = noisy(Point::origin(), Vector::z(), 0.3, 2.0);
+        let allowed = OUT * vertex.sigma;
+        assert!(
+            (vertex.held(Vector::z() * 1.5, 0.0) - Vector::z() * (allowed - 0.3)).norm() < 1e-12
+        );
+        assert_eq!(vertex.held(Vector::z() * -0.6, 0.0), Vector::z() * -0.6);
+        // Along a crease that sticks out by as much it may go there.
+        assert_eq!(vertex.held(Vector::z() * 1.4, 1.7), Vector::z() * 1.4);
+        // What sticks out already may come back, however far that is.
+        let far = noisy(Point::origin(), Vector::z(), 9.0, 2.0);
+        assert_eq!(far.held(Vector::z() * -2.0, 0.0), Vector::z() * -2.0);
+        assert_eq!(far.held(Vector::z(), 0.0).norm(), 0.0);
+    }
 }

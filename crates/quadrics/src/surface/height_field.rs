@@ -94,4 +94,14 @@ mod tests {
         assert!((field.above(lifted) - field.above(points[14]) - 1.0).abs() < 1e-9);
         assert!(HeightField::fit(&[]).is_none());
     }
+
+    #[test]
+    fn the_variance_at_the_points_sums_to_the_number_of_unknowns() {
+        let at = |i: i32| Point::new(f64::from(i % 7), f64::from(i / 7), f64::from(i * i % 11));
+        let points: Vec<Point> = (0..49).map(at).collect();
+        let field = HeightField::fit(&points).unwrap();
+        let sum: f64 = points.iter().map(|&p| field.variance(p)).sum();
+        assert!((sum - HeightField::PARAMETERS as f64).abs() < 1e-9, "{sum}");
+        assert!(field.variance(Point::new(40.0, 0.0, 0.0)) > 1.0);
+    }
 }
