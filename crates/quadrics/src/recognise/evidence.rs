@@ -62,6 +62,7 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
         context.step("noise", round as f64 / ROUNDS as f64)?;
         let mut rows: Vec<Row> = probe(scene, &seeds(context, scene, PROBES))
             .into_par_iter()
+            .flatten()
             .filter(|grown| grown.faces.len() >= FEWEST)
             .map(|grown| scatter(scene, &grown.choice.surface, &grown.faces))
             .collect();
@@ -89,7 +90,7 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
             break;
         }
     }
-    if scene.correlated() && scene.evidence.sigma < COARSEST && !explained(context, scene)? {
+    if scene.correlated() && scene.evidence.sigma < EXACT && !explained(context, scene)? {
         coarsen(context, scene)?;
     }
     Ok(())
@@ -159,6 +160,8 @@ pub fn carried(scene: &mut Scene, surfaces: &[Surface], labels: &[u32], averaged
     }
 }
 
+/// Where whole regions scatter by more, in sizes, it is noise and not the facets of some of them.
+const EXACT: f64 = 0.5 * COARSEST;
 /// How much coarser the next scale is.
 const COARSER: f64 = 3.0;
 /// The coarsest scale, in sizes: beyond it all evidence is noise.
@@ -184,20 +187,35 @@ pub fn coarsen(context: &mut Context, scene: &mut Scene) -> Result<()> {
     }
 }
 
-/// Seeds that are asked whether a scale explains the mesh, and the least share that must be.
+/// Seeds that are asked at once whether a scale explains the mesh, and how often at most.
 const ASKED: usize = 64;
+const TIMES: usize = 6;
+/// The least share of them that must lie in the region of some size that grows from them.
 const EXPLAINED: f64 = 0.9;
+/// A share that is so many of its standard deviations away from that needs no more seeds.
+const DOUBT: f64 = 2.5;
 
-/// Whether most random faces lie in a region of some size grown from any of them.
+/// Whether most faces lie in the region that grows from them, and it is of some size.
+///
+/// A face that only the region of another seed covers does not count: how many there are depends on
+/// the seeds that were drawn.
 fn explained(context: &mut Context, scene: &Scene) -> Result<bool> {
-    context.step("noise", 1.0)?;
-    let seeds = seeds(context, scene, ASKED);
-    let mut covered = vec![false; scene.mesh.faces.len()];
-    for grown in probe(scene, &seeds).iter().filter(|grown| grown.faces.len() >= FEWEST) {
-        grown.faces.iter().for_each(|&face| covered[face as usize] = true);
+    let (mut grown, mut asked) = (0.0, 0.0);
+    for round in 0..TIMES {
+        context.step("noise", round as f64 / TIMES as f64)?;
+        let seeds = seeds(context, scene, ASKED);
+        let explains = |(seed, grown): (&u32, Option<Candidate>)| {
+            grown.is_some_and(|g| g.faces.len() >= FEWEST && g.faces.contains(seed))
+        };
+        let large = seeds.iter().zip(probe(scene, &seeds)).map(explains).filter(|&yes| yes).count();
+        asked += seeds.len() as f64;
+        grown += large as f64;
+        let deviation = (EXPLAINED * (1.0 - EXPLAINED) / asked).sqrt();
+        if (grown / asked - EXPLAINED).abs() > DOUBT * deviation {
+            break;
+        }
     }
-    let count = seeds.iter().filter(|&&seed| covered[seed as usize]).count();
-    Ok(count as f64 >= EXPLAINED * ASKED as f64)
+    Ok(grown >= EXPLAINED * asked)
 }
 
 fn seeds(context: &mut Context, scene: &Scene, count: usize) -> Vec<u32> {
@@ -205,13 +223,13 @@ fn seeds(context: &mut Context, scene: &Scene, count: usize) -> Vec<u32> {
     (0..count).map(|_| context.rng.random_range(0..faces)).collect()
 }
 
-/// What grows from seeds.
-fn probe(scene: &Scene, seeds: &[u32]) -> Vec<Candidate> {
+/// What grows from each seed.
+fn probe(scene: &Scene, seeds: &[u32]) -> Vec<Option<Candidate>> {
     let unlabelled = vec![UNLABELLED; scene.mesh.faces.len()];
     let pool = Pool::default();
     let grow =
         |&seed: &u32| pool.with(|work| propose(scene, seed, &unlabelled, Growth::Loose, work));
-    seeds.par_iter().with_max_len(1).flat_map_iter(grow).collect()
+    seeds.par_iter().with_max_len(1).map(grow).collect()
 }
 
 /// Root mean square residual over the corners of some faces, and its correlation across edges.
