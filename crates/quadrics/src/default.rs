@@ -10,7 +10,7 @@ use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
 use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, subdivide};
 use crate::recognise::assign::{self, models};
-use crate::recognise::{self, Outcome, carry, evidence, expand, moves, scene::Scene};
+use crate::recognise::{self, Outcome, carry, evidence, expand, moves, patch, scene::Scene};
 use crate::surface::Surface;
 use crate::surface::select::Evidence;
 
@@ -50,6 +50,15 @@ pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<O
     // On scans surfaces that hold still tear regions; a number that was asked for stays.
     if options.constraints.is_some() && !scene.correlated() && options.regions.is_none() {
         regroup(context, scene, &mut found)?;
+    }
+    // Regions that are given or counted stay; on a clean mesh no height field fits as surfaces do.
+    if start.is_none() && options.regions.is_none() && !scene.evidence.general {
+        context.timed("patches", |_| {
+            let mut models = models(scene, &Regions::new(&found.labels), found.surfaces.iter());
+            patch::unite(scene, &mut models, &mut found.labels);
+            found.surfaces = models.into_iter().map(|model| model.surface).collect();
+            Ok(())
+        })?;
     }
     Ok(found)
 }

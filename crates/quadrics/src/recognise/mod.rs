@@ -12,8 +12,10 @@ mod general;
 pub mod merge;
 pub mod moves;
 mod open;
+pub mod patch;
 mod pool;
 pub mod scene;
+mod seams;
 mod split;
 
 use rayon::prelude::*;

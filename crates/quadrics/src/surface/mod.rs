@@ -14,6 +14,7 @@ mod local;
 pub mod moments;
 pub mod planarity;
 mod plane;
+pub mod polynomial;
 pub mod quadrature;
 mod quadric;
 mod refine;
