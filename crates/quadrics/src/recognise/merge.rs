@@ -29,6 +29,9 @@ pub(super) fn smooth(scene: &Scene) -> f64 {
 /// whose waviness tears regions, and on clean meshes one surface may cost more by the price of the labels.
 pub(super) const CHANGE: f64 = 20.0;
 const CHANGE_ELSE: f64 = -2.0 * LABEL;
+/// On scans neighbours err together, and two surfaces follow their waves better than one without there
+/// being two: one of their type that leaves less than this misfit, which is noise, is no loss.
+const WAVES: f64 = 1.0;
 
 /// A pair of adjacent regions and what merging them gains.
 struct Union {
@@ -62,7 +65,7 @@ pub fn merge(
         context.step("merge", 0.0)?;
         let typed = |id: u32| !matches!(models[id as usize].surface, Surface::FreeForm);
         let pairs = borders(scene, labels).into_iter();
-        merger.judge(pairs.filter(|b| b.2 < smooth && typed(b.0) && typed(b.1)));
+        merger.judge(models, pairs.filter(|b| b.2 < smooth && typed(b.0) && typed(b.1)));
         if merger.apply(models, labels, least, usize::MAX) == 0 {
             break;
         }
@@ -86,7 +89,7 @@ pub fn merge_down(
     let mut count = models.len();
     while count > goal {
         context.step("merge", 0.0)?;
-        merger.judge(borders(scene, labels).into_iter());
+        merger.judge(models, borders(scene, labels).into_iter());
         let merged = merger.apply(models, labels, f64::NEG_INFINITY, 1);
         if merged == 0 {
             break;
@@ -112,7 +115,7 @@ impl<'s, 'm> Merger<'s, 'm> {
     }
 
     /// Fits one surface to both regions of every pair that is not known yet.
-    fn judge(&mut self, pairs: impl Iterator<Item = (u32, u32, f64)>) {
+    fn judge(&mut self, models: &[Model], pairs: impl Iterator<Item = (u32, u32, f64)>) {
         let unknown: Vec<(u32, u32)> =
             pairs.map(|(a, b, _)| (a, b)).filter(|pair| !self.unions.contains_key(pair)).collect();
         let judged: Vec<Option<Union>> = unknown
@@ -121,7 +124,15 @@ impl<'s, 'm> Merger<'s, 'm> {
                 let faces = self.joined(a, b);
                 let choice = choose(self.scene, &faces, self.evidence, marks)?;
                 let apart = self.criteria[a as usize] + self.criteria[b as usize];
-                Some(Union { gain: apart - choice.criterion, choice })
+                let mut gain = apart - choice.criterion;
+                let alike = |id: u32| {
+                    let of = |surface| std::mem::discriminant(surface);
+                    of(&models[id as usize].surface) == of(&choice.surface)
+                };
+                if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {
+                    gain = gain.max(0.0);
+                }
+                Some(Union { gain, choice })
             })
             .collect();
         self.unions.extend(unknown.into_iter().zip(judged));
