@@ -12,6 +12,7 @@ __all__ = [
     "denoise",
     "deviation",
     "distance",
+    "encode_png",
     "evaluate",
     "inspect",
     "noise",
@@ -136,3 +137,4 @@ def paint(
     width: int,
     height: int,
 ) -> NDArray[np.uint8]: ...
+def encode_png(pixels: NDArray[np.uint8]) -> bytes: ...

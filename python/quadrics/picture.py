@@ -27,12 +27,9 @@ GREY = (205, 207, 211)
 
 def write_picture(path: Path, result: Result) -> None:
     """Draw both views and write the PNG; the same result gives the same bytes."""
-    from PIL import Image
-
     seen = look(result.mesh)
     views = [_plain(seen), _regions(seen, result)]
-    # Half as large as uncompressed in an eighth of the time that the best compression takes.
-    Image.fromarray(np.hstack(views)).save(path, "PNG", compress_level=3)
+    path.write_bytes(_core.encode_png(np.hstack(views)))
 
 
 def plain_view(mesh: Mesh) -> NDArray[np.uint8]:

@@ -32,6 +32,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(surface::coefficients, module)?)?;
     module.add_function(wrap_pyfunction!(picture::see, module)?)?;
     module.add_function(wrap_pyfunction!(picture::paint, module)?)?;
+    module.add_function(wrap_pyfunction!(picture::encode_png, module)?)?;
     module.add_function(wrap_pyfunction!(synth::part_names, module)?)?;
     module.add_function(wrap_pyfunction!(synth::part, module)?)?;
     module.add_function(wrap_pyfunction!(synth::default_scanner, module)?)?;
