@@ -5,8 +5,8 @@ python benchmarks/medians.py benchmarks/record/valve_body.csv
 
 from __future__ import annotations
 
+import argparse
 import csv
-import sys
 from collections import defaultdict
 from pathlib import Path
 from statistics import median
@@ -17,7 +17,9 @@ OURS = "quadrics, threads 2"
 
 def main() -> None:
     """Print a table for wall clock and one for processor time."""
-    lines = Path(sys.argv[1]).read_text(encoding="utf-8").splitlines()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("record", type=Path, help="CSV file that whole.py wrote")
+    lines = parser.parse_args().record.read_text(encoding="utf-8").splitlines()
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
     for column, what in (("wall_s", "wall"), ("cpu_s", "processor")):
         print(table(rows, column, what), end="\n\n")

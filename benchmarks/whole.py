@@ -82,7 +82,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--mesh", type=Path, nargs="*", default=[], help="other meshes")
     truth = "folder of the part that the meshes were made of by dividing its faces 1:4"
     parser.add_argument("--truth", type=Path, help=truth)
-    noisy = f"each mesh with noise of eq. 5 too (sigma {SIGMA}, {RATIO:.0%} of the vertices)"
+    noisy = f"each mesh with noise of eq. 5 too (sigma {SIGMA}, on {RATIO} of the vertices)"
     parser.add_argument("--noisy", action="store_true", help=noisy)
     rival = "another program, in turn with ours"
     parser.add_argument("--rival", action="append", default=[], metavar="NAME=COMMAND", help=rival)
