@@ -165,7 +165,8 @@ fn back(mut outcome: Outcome, working: &Working, parents: &[u32], scene: &Scene)
     }
 }
 
-/// Lets the constrained surfaces divide the faces anew (paper, 4.3(5)).
+/// Lets the constrained surfaces divide the faces anew (paper, 4.3(5)); where that tears regions,
+/// all stays as it was.
 fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<()> {
     let mut fits = context
         .timed("describe", |context| fit_all(context, scene, &found.labels, &found.surfaces))?;
@@ -174,14 +175,18 @@ fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<
         Ok(())
     })?;
     context.timed("assign", |_| {
-        let regions = Regions::new(&found.labels);
+        let mut labels = found.labels.clone();
+        let regions = Regions::new(&labels);
         let mut models = models(scene, &regions, fits.iter().map(|fit| &fit.surface));
-        expand::expand(scene, &models, &mut found.labels);
-        assign::connect(scene, &mut models, &mut found.labels);
-        moves::tidy(&mut models, &mut found.labels);
-        moves::drop_needless(scene, &models, &mut found.labels);
-        moves::tidy(&mut models, &mut found.labels);
-        found.surfaces = models.into_iter().map(|model| model.surface).collect();
+        expand::expand(scene, &models, &mut labels);
+        assign::connect(scene, &mut models, &mut labels);
+        moves::tidy(&mut models, &mut labels);
+        moves::drop_needless(scene, &models, &mut labels);
+        moves::tidy(&mut models, &mut labels);
+        if models.len() <= found.surfaces.len() {
+            found.labels = labels;
+            found.surfaces = models.into_iter().map(|model| model.surface).collect();
+        }
         Ok(())
     })
 }
