@@ -45,9 +45,10 @@ fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
             let gathered = scene.samples(faces, SAMPLES, marks);
             general::choose(gathered.samples(), gathered.total, scene.evidence)
         });
-    // On a clean mesh a few strange faces turn a fit away from what all the others lie on.
-    let known =
-        scene.evidence.general.then(|| judge(scene, &model.surface, faces, scene.evidence, marks));
+    // On a clean mesh a few strange faces turn a fit away from what all the others lie on. Quadrics
+    // are not worth it: they may be patches of what no surface explains.
+    let known = (scene.evidence.general && !matches!(model.surface, Surface::Quadric(_)))
+        .then(|| judge(scene, &model.surface, faces, scene.evidence, marks));
     let choices = simple.into_iter().chain(general.into_iter().flatten()).chain(known);
     if let Some(choice) = choices.min_by(|a, b| a.criterion.total_cmp(&b.criterion)) {
         *model = Model::new(scene, choice.surface, faces);
