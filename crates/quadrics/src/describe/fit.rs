@@ -41,10 +41,10 @@ pub struct Recognised {
 pub fn fit(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> Recognised {
     let mut choices = candidates(scene, faces, known, marks);
     let explained = choices.first().is_some_and(|best| best.misfit <= EXPLAINED);
-    let chosen = |choice: &Choice| explained || same_type(&choice.surface, known);
+    let chosen = |choice: &Choice| explained || choice.surface.is_like(known);
     let Some(at) = choices.iter().position(chosen) else { return unexplained(known) };
     let best = choices.remove(at);
-    let second = choices.into_iter().find(|other| !same_type(&other.surface, &best.surface));
+    let second = choices.into_iter().find(|other| !other.surface.is_like(&best.surface));
     let confidence = confidence(&best, second.as_ref());
     let runner_up = second.filter(|second| is_noteworthy(&best, second)).map(|c| c.surface);
     let gathered = scene.samples(faces, PARAMETERS, marks);
@@ -81,10 +81,6 @@ fn unexplained(known: &Surface) -> Recognised {
         waves: None,
         scatter: None,
     }
-}
-
-fn same_type(one: &Surface, other: &Surface) -> bool {
-    std::mem::discriminant(one) == std::mem::discriminant(other)
 }
 
 /// All types that fit, the known surface among them, best criterion first.

@@ -216,8 +216,7 @@ pub fn propose(
         }
         // The best comes last: it is the one that may change its type while it grows.
         for choice in fitting.into_iter().rev() {
-            let kind = std::mem::discriminant(&choice.surface);
-            starts.retain(|s| std::mem::discriminant(&s.choice.surface) != kind);
+            starts.retain(|start| !start.choice.surface.is_like(&choice.surface));
             let side = side_of(scene, &choice.surface, &ball);
             starts.push(Candidate { choice, faces: ball.clone(), side });
         }

@@ -125,10 +125,7 @@ impl<'s, 'm> Merger<'s, 'm> {
                 let choice = choose(self.scene, &faces, self.evidence, marks)?;
                 let apart = self.criteria[a as usize] + self.criteria[b as usize];
                 let mut gain = apart - choice.criterion;
-                let alike = |id: u32| {
-                    let of = |surface| std::mem::discriminant(surface);
-                    of(&models[id as usize].surface) == of(&choice.surface)
-                };
+                let alike = |id: u32| models[id as usize].surface.is_like(&choice.surface);
                 if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {
                     gain = gain.max(0.0);
                 }

@@ -38,17 +38,16 @@ fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
     if matches!(model.surface, Surface::FreeForm) {
         return;
     }
-    let simple = choose(scene, faces, scene.evidence, marks);
+    let gathered = scene.samples(faces, SAMPLES, marks);
+    let (samples, total, evidence) = (gathered.samples(), gathered.total, scene.evidence);
+    let simple = select::choose(samples, total, evidence).into_iter().next();
+    let quadric = matches!(model.surface, Surface::Quadric(_));
     // Under noise only a region that is a general quadric already may be one.
-    let general =
-        (matches!(model.surface, Surface::Quadric(_)) && !scene.evidence.general).then(|| {
-            let gathered = scene.samples(faces, SAMPLES, marks);
-            general::choose(gathered.samples(), gathered.total, scene.evidence)
-        });
+    let general = (quadric && !evidence.general).then(|| general::choose(samples, total, evidence));
     // On a clean mesh a few strange faces turn a fit away from what all the others lie on. Quadrics
     // are not worth it: they may be patches of what no surface explains.
-    let known = (scene.evidence.general && !matches!(model.surface, Surface::Quadric(_)))
-        .then(|| judge(scene, &model.surface, faces, scene.evidence, marks));
+    let known = (!quadric && evidence.general)
+        .then(|| select::judge(model.surface.clone(), samples, total, evidence));
     let choices = simple.into_iter().chain(general.into_iter().flatten()).chain(known);
     if let Some(choice) = choices.min_by(|a, b| a.criterion.total_cmp(&b.criterion)) {
         *model = Model::new(scene, choice.surface, faces);

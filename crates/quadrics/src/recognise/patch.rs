@@ -136,10 +136,10 @@ impl Pieces {
             weights.resize(points.len(), self.evidence.independent * weight);
         }
         let heights = Heights::over(&points, &normals, weights)?;
+        let coefficient = 2.0 * self.evidence.samples(total).ln();
         let mut least = f64::INFINITY;
         for degree in DEGREES {
-            let samples = self.evidence.samples(total);
-            let price = 2.0 * coefficients(degree) as f64 * samples.ln();
+            let price = coefficient * coefficients(degree) as f64;
             if price > least {
                 break;
             }

@@ -79,6 +79,11 @@ pub enum Surface {
 }
 
 impl Surface {
+    /// Whether it is of another's type.
+    pub fn is_like(&self, other: &Self) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+
     /// The name of its type; [`Self::class_name`] tells quadrics apart.
     pub fn type_name(&self) -> &'static str {
         match self {
