@@ -3,6 +3,7 @@
 use super::contact;
 use super::demands::{Demand, Demands, Fixed, of_pairs};
 use super::equation::Equation;
+use super::measure::{has_axis, radius};
 use super::pattern;
 use super::proposal::{Part, Proposal};
 use crate::math::{Point, Unit, Vector};
@@ -101,7 +102,7 @@ fn fits(kind: &str, at: usize, surface: &Surface) -> (bool, &'static str) {
     let plane = matches!(surface, Surface::Plane(_));
     let sphere = matches!(surface, Surface::Sphere(_));
     let cone = matches!(surface, Surface::Cone(_));
-    let axis = direction(surface).is_some() && !plane;
+    let axis = has_axis(surface);
     match kind {
         "parallel" | "orthogonal" | "equal_dihedral" => {
             (direction(surface).is_some(), "surfaces with a normal or an axis")
@@ -109,7 +110,7 @@ fn fits(kind: &str, at: usize, surface: &Surface) -> (bool, &'static str) {
         "coaxial" | "pattern" => (axis, "surfaces with an axis"),
         "concentric" => (sphere || matches!(surface, Surface::Torus(_)), "spheres and tori"),
         "coplanar" | "equal_distance" => (plane, "planes"),
-        "equal_radius" => (!plane && !cone, "cylinders, spheres and tori"),
+        "equal_radius" => (radius(surface).is_some(), "cylinders, spheres and tori"),
         "equal_angle" => (cone, "cones"),
         "center_on_axis" if at == 0 => (sphere, "a sphere, then a surface with an axis"),
         "center_on_axis" => (axis, "a sphere, then a surface with an axis"),
@@ -121,8 +122,8 @@ fn fits(kind: &str, at: usize, surface: &Surface) -> (bool, &'static str) {
 
 fn has(surface: &Surface, fixed: &Fixed) -> Result<(), String> {
     let known = match (fixed.parameter.as_str(), surface) {
-        ("axis", Surface::Cylinder(_) | Surface::Cone(_) | Surface::Torus(_))
-        | ("normal", Surface::Plane(_))
+        ("axis", surface) => has_axis(surface),
+        ("normal", Surface::Plane(_))
         | ("center", Surface::Sphere(_) | Surface::Torus(_))
         | ("point", Surface::Cylinder(_)) => true,
         _ => fixed.size().is_some_and(|size| size.of(surface).is_some()),

@@ -3,7 +3,7 @@
 use super::classes::Classes;
 use super::system::{Center, Form, Line, State, System};
 use crate::math::{Point, Unit, frame};
-use crate::surface::{Condensed, Surface, direction};
+use crate::surface::{Condensed, Revolved, Surface, direction};
 
 impl System {
     /// Builds the unknowns; `directions` has the start of every direction class.
@@ -106,7 +106,14 @@ impl Builder<'_> {
                 let center = self.center(i, s.center);
                 Form::Sphere { center, radius: self.shared("radius", radius, s.radius) }
             }
-            Surface::Quadric(_) | Surface::FreeForm => return None,
+            Surface::Quadric(s) => {
+                let own = Revolved::of(s)?.from(item.foot);
+                let line = self.line(i, item.foot);
+                let height = self.state.directions[class].dot(&(item.foot - line.base));
+                let profile = own.profile.iter().map(|value| self.own(*value)).collect();
+                Form::Revolved { line, sign, height, profile, factor: own.factor }
+            }
+            Surface::FreeForm => return None,
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::system::{State, System};
 use crate::math::{Point, Unit, Vector, frame};
-use crate::surface::{Surface, direction};
+use crate::surface::{Revolved, Surface, direction};
 
 /// A relation between unknowns. Numbers are those of surfaces unless it says otherwise; what is said
 /// of directions and places holds as long as the classes that it was made for do.
@@ -207,7 +207,8 @@ pub fn place(surface: &Surface) -> Point {
         Surface::Cone(s) => s.apex,
         Surface::Torus(s) => s.center,
         Surface::Sphere(s) => s.center,
-        Surface::Quadric(_) | Surface::FreeForm => Point::origin(),
+        Surface::Quadric(s) => Revolved::of(s).map_or(Point::origin(), |own| own.point),
+        Surface::FreeForm => Point::origin(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! How far surfaces are from a relation, in degrees or lengths.
 
 use crate::math::{Point, Unit, Vector};
-use crate::surface::{Surface, direction};
+use crate::surface::{Revolved, Surface, direction};
 
 /// Radius of a cylinder or sphere, minor radius of a torus.
 pub fn radius(surface: &Surface) -> Option<f64> {
@@ -35,7 +35,8 @@ fn on_axis(surface: &Surface) -> Option<(Point, Unit)> {
         Surface::Cylinder(s) => Some((s.point, s.axis)),
         Surface::Cone(s) => Some((s.apex, s.axis)),
         Surface::Torus(s) => Some((s.center, s.axis)),
-        _ => None,
+        Surface::Quadric(s) => Revolved::of(s).map(|own| (own.point, own.axis)),
+        Surface::Plane(_) | Surface::Sphere(_) | Surface::FreeForm => None,
     }
 }
 

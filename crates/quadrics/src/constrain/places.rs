@@ -51,10 +51,11 @@ impl View<'_> {
     /// The axis of a surface that has one.
     pub fn line_of(&self, i: usize) -> Option<&Line> {
         match &self.system.forms[i] {
-            Form::Cylinder { line, .. } | Form::Cone { line, .. } | Form::Torus { line, .. } => {
-                Some(line)
-            }
-            _ => None,
+            Form::Cylinder { line, .. }
+            | Form::Cone { line, .. }
+            | Form::Torus { line, .. }
+            | Form::Revolved { line, .. } => Some(line),
+            Form::Plane { .. } | Form::Sphere { .. } => None,
         }
     }
 

@@ -2,8 +2,8 @@
 
 use super::tests::{cylinder, plane, sphere};
 use super::{Constrained, Demands, Link, Value, constrain};
-use crate::math::Vector;
-use crate::surface::{Condensed, Surface};
+use crate::math::{Point, Unit, Vector};
+use crate::surface::{Condensed, Revolved, Surface};
 
 /// What the data support when all border on each other.
 fn touching(items: &[Condensed]) -> Constrained {
@@ -31,6 +31,35 @@ fn a_fillet_touches_both_of_its_walls() {
     let Surface::Cylinder(fillet) = &found.surfaces[2] else { panic!() };
     let away = found.surfaces[0].distance(fillet.point).unwrap();
     assert!((away.abs() - fillet.radius).abs() < 1e-9);
+}
+
+#[test]
+fn a_paraboloid_shares_the_axis_of_its_bore() {
+    let axis = Unit::new_normalize(Vector::new(1e-4, -2e-4, 1.0));
+    let point = Point::new(0.50005, 0.4999, 0.5);
+    let bowl = Revolved { point, axis, profile: vec![0.0, -0.1], factor: 1.0 }.quadric();
+    let bowl = Surface::Quadric(bowl);
+    let near = |k: i32| {
+        let (turn, out) = (f64::from(k) * 2.4, f64::from(k) / 1000.0);
+        Point::new(0.5 + out * turn.cos(), 0.5 + out * turn.sin(), 0.5)
+    };
+    let points: Vec<_> = (20..220).filter_map(|k| bowl.project(near(k))).collect();
+    let found = touching(&[
+        cylinder([0.5, 0.5, 0.3], Vector::z(), 0.1),
+        Condensed::new(&bowl, &points, 1e-3).unwrap(),
+        plane([0.5, 0.2, 0.5], Vector::y()),
+    ]);
+    let kinds = ["parallel", "coaxial", "orthogonal"];
+    assert!(kinds.iter().all(|kind| !standing(&found, kind).is_empty()), "{:?}", found.links);
+    let (Surface::Cylinder(bore), Surface::Quadric(bowl)) =
+        (&found.surfaces[0], &found.surfaces[1])
+    else {
+        panic!()
+    };
+    let bowl = Revolved::of(bowl).unwrap();
+    assert!(bowl.axis.cross(&bore.axis).norm() < 1e-12);
+    assert!((bowl.point - bore.point).cross(&bore.axis).norm() < 1e-12);
+    assert!((bowl.profile[1].abs() - 0.1).abs() < 1e-3);
 }
 
 #[test]

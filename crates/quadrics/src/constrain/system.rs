@@ -4,7 +4,7 @@
 //! an angle by theirs: equality needs no equation and holds to the last bit.
 
 use crate::math::{Point, Unit, Vector, frame};
-use crate::surface::{Cone, Cylinder, Plane, Sphere, Surface, Torus};
+use crate::surface::{Cone, Cylinder, Plane, Revolved, Sphere, Surface, Torus};
 
 /// An axis: it passes `base + a u + b v` along a direction.
 #[derive(Debug, Clone)]
@@ -61,6 +61,14 @@ pub enum Form {
     Sphere {
         center: Center,
         radius: usize,
+    },
+    /// A quadric of revolution; `height` is that of its point over the base of the line.
+    Revolved {
+        line: Line,
+        sign: f64,
+        height: f64,
+        profile: Vec<usize>,
+        factor: f64,
     },
 }
 
@@ -180,6 +188,15 @@ impl System {
                 };
                 Surface::Sphere(Sphere { center, radius: value(radius) })
             }
+            Form::Revolved { line, sign, height, profile, factor } => {
+                let revolved = Revolved {
+                    point: line.at(state, *height),
+                    axis: signed(line.direction, *sign),
+                    profile: profile.iter().map(value).collect(),
+                    factor: *factor,
+                };
+                Surface::Quadric(revolved.quadric())
+            }
         }
     }
 
@@ -205,6 +222,9 @@ impl System {
             }
             Form::Sphere { center: Center::OnLine(line, height), radius } => {
                 of_line(line).chain([*height, *radius].map(scalar)).collect()
+            }
+            Form::Revolved { line, profile, .. } => {
+                of_line(line).chain(profile.iter().map(|s| scalar(*s))).collect()
             }
         }
     }

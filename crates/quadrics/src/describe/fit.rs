@@ -88,7 +88,7 @@ fn candidates(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) 
     let gathered = scene.samples(faces, CHOICE, marks);
     let samples = gathered.samples();
     let mut choices = select::choose(samples, gathered.total, scene.evidence);
-    if matches!(known, Surface::Quadric(_)) && !scene.evidence.general {
+    if matches!(known, Surface::Quadric(_)) {
         choices.extend(general::choose(samples, gathered.total, scene.evidence));
     }
     if let Some(fit) = refine(known, samples.points, &[]) {

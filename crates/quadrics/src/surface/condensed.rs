@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::waves::Waves;
-use super::{Shape, Surface, centroid};
+use super::{Revolved, Shape, Surface, centroid};
 use crate::math::{Point, Unit, Vector, frame};
 
 /// A fitted surface, and what deviating from it costs.
@@ -22,6 +22,7 @@ use crate::math::{Point, Unit, Vector, frame};
 /// | cone | tilt; shift of the axis at F; radius at F; half angle |
 /// | torus | tilt; shift of the centre along u, v and d; major and minor radius |
 /// | sphere | shift of the centre along u, v and d; radius |
+/// | quadric of revolution | tilt; shift of the axis at F; coefficients of its profile from F |
 #[derive(Debug, Clone)]
 pub struct Condensed {
     /// The free fit.
@@ -71,7 +72,11 @@ impl Condensed {
             Surface::Cone(s) => on_line(s.apex, s.axis, center),
             Surface::Torus(s) => s.center,
             Surface::Sphere(s) => s.center,
-            Surface::Quadric(_) | Surface::FreeForm => return None,
+            Surface::Quadric(s) => {
+                let own = Revolved::of(s)?;
+                on_line(own.point, own.axis, center)
+            }
+            Surface::FreeForm => return None,
         };
         let (u, v) = frame(&direction);
         let frame = [u.into_inner(), v.into_inner(), direction.into_inner()];
@@ -115,7 +120,15 @@ impl Condensed {
                 vec![tilt[0], tilt[1], a, b, c, -outward.dot(&n), -1.0]
             }
             Surface::Sphere(_) => vec![a, b, c, -1.0],
-            Surface::Quadric(_) | Surface::FreeForm => return None,
+            Surface::Quadric(s) => {
+                let own = Revolved::of(s)?;
+                let slope = s.gradient(self.surface.project(point)?).norm();
+                let height = d.dot(&(point - self.foot));
+                let powers = (0..own.profile.len()).map(|power| height.powi(power as i32));
+                let profile = powers.map(|monomial| own.factor * monomial / slope);
+                [tilt[0], tilt[1], a, b].into_iter().chain(profile).collect()
+            }
+            Surface::FreeForm => return None,
         })
     }
 
@@ -156,6 +169,15 @@ impl Condensed {
             (Surface::Sphere(own), Surface::Sphere(s)) => {
                 let [x, y, z] = self.frame.map(|axis| axis.dot(&(s.center - self.foot)));
                 vec![x, y, z, s.radius - own.radius]
+            }
+            (Surface::Quadric(own), Surface::Quadric(s)) => {
+                let (own, other) = (Revolved::of(own)?, Revolved::of(s)?.along(&d));
+                let [a, b] = tilt(&other.axis);
+                let at = pierced(other.point, &other.axis);
+                let shift = at - self.foot;
+                let (own, other) = (own.from(self.foot).profile, other.from(at).profile);
+                let moved = other.iter().zip(&own).map(|(new, old)| new - old);
+                [a, b, u.dot(&shift), v.dot(&shift)].into_iter().chain(moved).collect()
             }
             _ => return None,
         };
@@ -204,14 +226,15 @@ const HEARD: usize = 150;
 /// Standard deviation, in radians and sizes, from which on a fit is no small neighbourhood.
 const VAGUE: f64 = 0.5;
 
-/// A plane's normal, or the axis of a cylinder, cone or torus.
+/// A plane's normal, or the axis of a cylinder, cone, torus or quadric of revolution.
 pub fn direction(surface: &Surface) -> Option<Unit> {
     match surface {
         Surface::Plane(s) => Some(s.normal),
         Surface::Cylinder(s) => Some(s.axis),
         Surface::Cone(s) => Some(s.axis),
         Surface::Torus(s) => Some(s.axis),
-        Surface::Sphere(_) | Surface::Quadric(_) | Surface::FreeForm => None,
+        Surface::Quadric(s) => Some(Revolved::of(s)?.axis),
+        Surface::Sphere(_) | Surface::FreeForm => None,
     }
 }
 
@@ -262,7 +285,17 @@ mod tests {
                 Surface::Sphere(Sphere { center, radius: 0.3 }),
                 Surface::Sphere(Sphere { center: there, radius: 0.300002 }),
             ),
+            (
+                revolved(center, axis, [-0.04, 0.1, 0.5]),
+                revolved(there, moved, [-0.040001, 0.1, 0.500002]),
+            ),
+            (revolved(center, axis, [-0.03, 0.2]), revolved(there, moved, [-0.03, 0.200002])),
         ]
+    }
+
+    fn revolved<const N: usize>(point: Point, axis: Unit, profile: [f64; N]) -> Surface {
+        let made = Revolved { point, axis, profile: profile.to_vec(), factor: 1.5 };
+        Surface::Quadric(made.quadric())
     }
 
     /// Points of a surface, spread over it.

@@ -8,7 +8,7 @@ use nalgebra::{Const, DimMin, Matrix3, Rotation3, SVector, UnitQuaternion};
 
 use super::refine::{Local, centroid, minimise, taubin_distance};
 use super::start::{self, Samples};
-use super::{Quadric, Surface};
+use super::{Quadric, Surface, revolved};
 use crate::math::{Point, Similarity, Unit, Vector, frame};
 
 /// What is held when a quadric is fitted.
@@ -24,11 +24,21 @@ pub enum Family {
     Cylinder,
     /// Straight along an axis, a parabola across.
     ParabolicCylinder,
+    /// An ellipse or a hyperbola turned about an axis of its own.
+    Revolved,
+    /// A parabola turned about its axis.
+    RevolvedParaboloid,
 }
 
 /// Families that hold something.
-pub const HELD: [Family; 4] =
-    [Family::Cone, Family::Paraboloid, Family::Cylinder, Family::ParabolicCylinder];
+pub const HELD: [Family; 6] = [
+    Family::Cone,
+    Family::Paraboloid,
+    Family::Cylinder,
+    Family::ParabolicCylinder,
+    Family::Revolved,
+    Family::RevolvedParaboloid,
+];
 
 /// Curvatures, slopes and levels below this fraction of the largest curvature of a quadric in the
 /// unit cube are held at zero: rounding leaves 1e-14 of them, a free fit to rounded points 1e-7.
@@ -37,19 +47,26 @@ const ZERO: f64 = 1e-10;
 const TRIAL_ITERATIONS: usize = 4;
 const FINAL_ITERATIONS: usize = 25;
 
-/// What may change: a coefficient of the frame, or the frame by a turn or a shift along its axes.
+/// What may change: a coefficient of the frame, that of x² and y² together, or the frame by a turn or
+/// a shift along its axes.
 #[derive(Clone, Copy)]
 enum Unknown {
     Coefficient(usize),
+    Round,
     Turn(usize),
     Shift(usize),
 }
-use Unknown::{Coefficient as C, Shift, Turn};
+use Unknown::{Coefficient as C, Round, Shift, Turn};
 
-// Coefficients count from the constant: 1 to 3 are x, y, z; 4, 5, 7 are x², xy, y².
+/// The coefficients of x² and y², equal where z is an axis of revolution.
+const ROUND: [usize; 2] = [4, 7];
+
+// Coefficients count from the constant: 1 to 3 are x, y, z; 4, 5, 7, 9 are x², xy, y², z².
 const CONE: [Unknown; 9] = [C(4), C(5), C(6), C(7), C(8), C(9), Shift(0), Shift(1), Shift(2)];
 const PARABOLOID: [Unknown; 9] = [C(0), C(1), C(2), C(3), C(4), C(5), C(7), Turn(0), Turn(1)];
 const CYLINDER: [Unknown; 8] = [C(0), C(1), C(2), C(4), C(5), C(7), Turn(0), Turn(1)];
+const REVOLVED: [Unknown; 8] = [C(0), C(3), Round, C(9), Turn(0), Turn(1), Shift(0), Shift(1)];
+const REVOLVED_PARABOLOID: [Unknown; 7] = [C(0), C(3), Round, Turn(0), Turn(1), Shift(0), Shift(1)];
 const PARABOLIC_CYLINDER: [Unknown; 7] = [C(0), C(1), C(2), C(4), Turn(0), Turn(1), Turn(2)];
 
 impl Family {
@@ -63,8 +80,11 @@ impl Family {
             constant - (0..rank).map(|i| slopes[i].powi(2) / (4.0 * values[i])).sum::<f64>()
         };
         let rank = values.iter().filter(|value| value.abs() > zero).count();
+        let equal = |i: usize, j: usize| (values[i] - values[j]).abs() <= zero;
         match rank {
             3 if level(3).abs() <= zero => Self::Cone,
+            3 if equal(0, 1) || equal(1, 2) || equal(0, 2) => Self::Revolved,
+            2 if slopes[2].abs() > zero && equal(0, 1) => Self::RevolvedParaboloid,
             2 if slopes[2].abs() > zero => Self::Paraboloid,
             2 => Self::Cylinder,
             1 => Self::ParabolicCylinder,
@@ -88,12 +108,23 @@ impl Family {
             Self::Paraboloid => &PARABOLOID,
             Self::Cylinder => &CYLINDER,
             Self::ParabolicCylinder => &PARABOLIC_CYLINDER,
+            Self::Revolved => &REVOLVED,
+            Self::RevolvedParaboloid => &REVOLVED_PARABOLOID,
         }
     }
 
     /// Whether a coefficient is one of the unknowns.
     fn has(self, coefficient: usize) -> bool {
-        self.unknowns().iter().any(|u| matches!(u, C(own) if *own == coefficient))
+        self.unknowns().iter().any(|unknown| match unknown {
+            C(own) => *own == coefficient,
+            Round => ROUND.contains(&coefficient),
+            Turn(_) | Shift(_) => false,
+        })
+    }
+
+    /// Whether the members are surfaces of revolution.
+    pub(super) fn is_revolved(self) -> bool {
+        matches!(self, Self::Revolved | Self::RevolvedParaboloid)
     }
 
     /// The member of least squared distance, started near a quadric; `None` where there is none.
@@ -133,6 +164,10 @@ impl Family {
     ) -> Option<(Quadric, Similarity, f64)> {
         let mut held = SVector::from(local.coefficients);
         (0..10).filter(|&i| !self.has(i)).for_each(|i| held[i] = 0.0);
+        if self.is_revolved() {
+            let mean = ROUND.map(|i| held[i]).iter().sum::<f64>() / 2.0;
+            ROUND.into_iter().for_each(|i| held[i] = mean);
+        }
         let coefficients = held.try_normalize(1e-300)?;
         let job = Job { coefficients, frame, points, weights, iterations };
         let found = match self {
@@ -141,6 +176,8 @@ impl Family {
             Self::Paraboloid => job.run(&PARABOLOID),
             Self::Cylinder => job.run(&CYLINDER),
             Self::ParabolicCylinder => job.run(&PARABOLIC_CYLINDER),
+            Self::Revolved => job.run(&REVOLVED),
+            Self::RevolvedParaboloid => job.run(&REVOLVED_PARABOLOID),
         };
         found.2.is_finite().then_some(found)
     }
@@ -160,6 +197,9 @@ impl Family {
                 let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix(&turn));
                 at(centroid(points)?, turn, points)
             }
+            Self::Revolved | Self::RevolvedParaboloid => {
+                upright(quadric, revolved::odd(&quadric.parts().2), points)
+            }
         }
     }
 
@@ -176,10 +216,20 @@ impl Family {
                 let axes = start::axes(samples).into_iter();
                 frames.extend(axes.filter_map(|a| at(centroid(points)?, along(*a), points)));
             }
+            Self::Revolved | Self::RevolvedParaboloid => {
+                let axes = by_curvature(&near.parts().2).1.into_iter();
+                frames.extend(axes.filter_map(|axis| upright(near, axis, points)));
+            }
             Self::General | Self::ParabolicCylinder => {}
         }
         frames
     }
+}
+
+/// A frame that stands on an axis of a quadric, beside the points.
+fn upright(quadric: &Quadric, axis: Vector, points: &[Point]) -> Option<Similarity> {
+    let axis = Unit::try_new(axis, 1e-300)?;
+    at(revolved::foot(quadric, &axis, centroid(points)?)?, along(axis.into_inner()), points)
 }
 
 /// Eigenvalues of a form and their directions, the largest first, whatever their signs.
@@ -251,6 +301,7 @@ impl<const N: usize> Local<N> for Held<N> {
         let torque = p.cross(&normal);
         let slope = |unknown: Unknown| match unknown {
             C(i) => row[i],
+            Round => ROUND.map(|i| row[i]).iter().sum(),
             Turn(axis) => -torque[axis],
             Shift(axis) => -normal[axis],
         };
@@ -264,6 +315,7 @@ impl<const N: usize> Local<N> for Held<N> {
         for (unknown, step) in self.unknowns.iter().zip(step.iter()) {
             match *unknown {
                 C(i) => coefficients[i] += step,
+                Round => ROUND.into_iter().for_each(|i| coefficients[i] += step),
                 Turn(axis) => turn[axis] = *step,
                 Shift(axis) => shift[axis] = *step,
             }

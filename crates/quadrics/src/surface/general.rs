@@ -1,6 +1,6 @@
 //! General quadrics by their class: the free fit and one of every family, judged like any type.
 
-use super::family::HELD;
+use super::family::{Family, HELD};
 use super::kind::{Class, kind};
 use super::select::{Choice, Evidence, judge, plausible};
 use super::start::{self, Samples};
@@ -24,8 +24,11 @@ pub fn choose_near(
     vertices: usize,
     evidence: Evidence,
 ) -> Vec<Choice> {
+    // Without noise a free fit shows its class by itself; but only what is held is exactly round.
+    let asked = |family: &Family| !evidence.general || family.is_revolved();
     let held = free.quadric().into_iter().flat_map(|near| {
-        HELD.into_iter().filter_map(move |family| family.fit(&near, samples).map(Surface::Quadric))
+        let families = HELD.into_iter().filter(asked);
+        families.filter_map(move |family| family.fit(&near, samples).map(Surface::Quadric))
     });
     let sound = |surface: &Surface| {
         !singular(surface, samples.points)
