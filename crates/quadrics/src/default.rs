@@ -4,13 +4,14 @@
 use crate::context::Context;
 use crate::describe::fit_all;
 use crate::error::Result;
-use crate::impose::equalise;
+use crate::impose::equalised;
 use crate::mesh::Working;
 use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
 use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, subdivide};
 use crate::recognise::assign::{self, models};
 use crate::recognise::{self, Outcome, carry, evidence, expand, moves, patch, scene::Scene};
+use crate::retype::retype;
 use crate::surface::Surface;
 use crate::surface::select::Evidence;
 
@@ -170,14 +171,12 @@ fn back(mut outcome: Outcome, working: &Working, parents: &[u32], scene: &Scene)
 fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<()> {
     let mut fits = context
         .timed("describe", |context| fit_all(context, scene, &found.labels, &found.surfaces))?;
-    context.timed("constrain", |_| {
-        equalise(&mut fits);
-        Ok(())
-    })?;
+    retype(context, scene, &found.labels, &mut fits)?;
+    let surfaces = context.timed("constrain", |_| Ok(equalised(&fits)))?;
     context.timed("assign", |_| {
         let mut labels = found.labels.clone();
         let regions = Regions::new(&labels);
-        let mut models = models(scene, &regions, fits.iter().map(|fit| &fit.surface));
+        let mut models = models(scene, &regions, surfaces.iter());
         expand::expand(scene, &models, &mut labels);
         assign::connect(scene, &mut models, &mut labels);
         moves::tidy(&mut models, &mut labels);

@@ -6,7 +6,7 @@ use crate::describe::Recognised;
 use crate::error::{Error, Result};
 use crate::math::{Point, Similarity, Unit, Vector};
 use crate::result::{Dimension, Parameter, Relation};
-use crate::surface::Condensed;
+use crate::surface::{Condensed, Surface};
 
 /// Moves the surfaces of the regions until their relations hold; relations and dimensions, in the
 /// frame that `out` leads to, which is that of `demands` too.
@@ -60,10 +60,21 @@ pub fn impose(
     Ok((links.into_iter().map(relation).collect(), dimensions.collect()))
 }
 
-/// Moves the surfaces of regions that still change until what is equal among them is.
-pub fn equalise(fits: &mut [Recognised]) {
+/// The surfaces of regions that still change, moved until what is equal among them is.
+pub fn equalised(fits: &[Recognised]) -> Vec<Surface> {
+    moved(fits, constrain::equalise)
+}
+
+/// The same for directions and axes alone.
+pub fn aligned(fits: &[Recognised]) -> Vec<Surface> {
+    moved(fits, constrain::align)
+}
+
+fn moved(fits: &[Recognised], by: fn(&[Condensed]) -> Vec<Surface>) -> Vec<Surface> {
     let (at, items) = condensed(fits);
-    at.iter().zip(constrain::equalise(&items)).for_each(|(&i, new)| fits[i].surface = new);
+    let mut surfaces: Vec<Surface> = fits.iter().map(|fit| fit.surface.clone()).collect();
+    at.iter().zip(by(&items)).for_each(|(&i, new)| surfaces[i] = new);
+    surfaces
 }
 
 /// The regions that can take part, and their surfaces.

@@ -23,6 +23,7 @@ pub mod prepare;
 pub mod recognise;
 pub mod render;
 pub mod result;
+mod retype;
 pub mod segment;
 pub mod surface;
 pub mod synth;

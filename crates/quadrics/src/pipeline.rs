@@ -14,6 +14,7 @@ use crate::partition::{Labels, UNLABELLED, compact, hand_out};
 use crate::prepare::{in_own_cube, in_unit_cube};
 use crate::recognise::{Outcome, evidence, scene::Scene};
 use crate::result::{Noise, Repair, Segmentation};
+use crate::retype::retype;
 use crate::surface::Surface;
 
 /// Segments a mesh into regions, each with its surface.
@@ -59,6 +60,9 @@ fn run(
         former.iter().map(|&old| found.surfaces[old as usize].clone()).collect();
     let mut fits =
         context.timed("describe", |context| fit_all(context, &scene, &on_clean, &surfaces))?;
+    if demands.is_some() && options.preset == Preset::Default {
+        retype(context, &scene, &on_clean, &mut fits)?;
+    }
     let beside = neighbours(&on_clean, scene.adjacency, fits.len());
     let (relations, dimensions) = match demands {
         Some(demands) => {

@@ -1,7 +1,7 @@
 //! How far surfaces are from a relation, in degrees or lengths.
 
-use crate::math::{Point, Unit, Vector};
-use crate::surface::{Revolved, Surface, direction};
+use crate::math::Point;
+use crate::surface::{Surface, axis, direction};
 
 /// Radius of a cylinder or sphere, minor radius of a torus.
 pub fn radius(surface: &Surface) -> Option<f64> {
@@ -30,21 +30,10 @@ pub fn lean(a: &Surface, b: &Surface) -> f64 {
     a.dot(&b).abs().min(1.0).asin().to_degrees()
 }
 
-fn on_axis(surface: &Surface) -> Option<(Point, Unit)> {
-    match surface {
-        Surface::Cylinder(s) => Some((s.point, s.axis)),
-        Surface::Cone(s) => Some((s.apex, s.axis)),
-        Surface::Torus(s) => Some((s.center, s.axis)),
-        Surface::Quadric(s) => Revolved::of(s).map(|own| (own.point, own.axis)),
-        Surface::Plane(_) | Surface::Sphere(_) | Surface::FreeForm => None,
-    }
-}
-
 /// Distance of one axis' point from the other axis.
 pub fn off_axis(a: &Surface, b: &Surface) -> f64 {
-    let (Some((p, _)), Some((q, axis))) = (on_axis(a), on_axis(b)) else { return 0.0 };
-    let between: Vector = p - q;
-    between.cross(&axis).norm()
+    let (Some((p, _)), Some((q, along))) = (axis(a), axis(b)) else { return 0.0 };
+    (p - q).cross(&along).norm()
 }
 
 fn center(surface: &Surface) -> Option<Point> {
@@ -78,5 +67,5 @@ pub fn off_angle(a: &Surface, b: &Surface) -> f64 {
 
 /// Whether a surface has an axis line.
 pub fn has_axis(surface: &Surface) -> bool {
-    on_axis(surface).is_some()
+    axis(surface).is_some()
 }

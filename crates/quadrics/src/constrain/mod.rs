@@ -84,6 +84,14 @@ pub fn equalise(items: &[Condensed]) -> Vec<Surface> {
     work.surfaces()
 }
 
+/// The surfaces under their common directions and axes alone.
+pub fn align(items: &[Condensed]) -> Vec<Surface> {
+    let demands = Demands::default();
+    let mut work = Work::new(items, &[], &demands);
+    work.align();
+    work.surfaces()
+}
+
 #[cfg(test)]
 mod admit_tests;
 #[cfg(test)]

@@ -18,13 +18,18 @@ const OBLIQUE: f64 = 0.3;
 const PARALLEL: f64 = 1e-9;
 
 impl Work<'_> {
-    /// Parallel classes, then right angles between them.
-    pub(super) fn orient(&mut self) {
+    /// Parallel classes.
+    pub(super) fn parallel(&mut self) {
         let rules = self.demands.rules("parallel");
         let (class, directions) = directions::parallel(self.items, &rules, self.demands.gate);
         self.classes.direction = class;
         self.directions = directions;
-        let Some((system, solution)) = self.solve(&self.classes, &self.directions) else { return };
+        self.solved = self.solve(&self.classes, &self.directions);
+    }
+
+    /// Right angles between parallel classes.
+    pub(super) fn upright(&mut self) {
+        let Some((system, solution)) = self.solved.take() else { return };
         let candidates = self.right_angles(&system, &solution);
         let (verdicts, state) =
             admit(&system, &solution.state, &solution.spread, &candidates, self.demands.gate);

@@ -74,9 +74,16 @@ impl<'a> Work<'a> {
         right.map(|(e, _)| e.clone()).chain(others).collect()
     }
 
+    /// Common directions, axes and planes, without right angles: of many directions those take longest.
+    pub fn align(&mut self) {
+        self.parallel();
+        self.stage(|view, classes| view.align(classes));
+    }
+
     /// Orientation, placement, equality.
     pub fn equalise(&mut self) {
-        self.orient();
+        self.parallel();
+        self.upright();
         self.stage(|view, classes| view.align(classes));
         self.stage(|view, classes| view.center_all(classes));
         self.stage(|view, classes| view.equalise(classes));

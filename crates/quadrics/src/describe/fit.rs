@@ -36,24 +36,46 @@ pub struct Recognised {
     pub scatter: Option<Scatter>,
 }
 
+impl Recognised {
+    /// Free-form, as far as we know.
+    fn without_support(surface: Surface) -> Self {
+        Self {
+            surface,
+            confidence: 0.5,
+            runner_up: None,
+            support: Vec::new(),
+            sigma: 0.0,
+            waves: None,
+            scatter: None,
+        }
+    }
+}
+
 /// Fits the faces of one region anew. `known` is the surface that it was recognised by; it stays
 /// where the noise explains no type.
 pub fn fit(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> Recognised {
     let mut choices = candidates(scene, faces, known, marks);
     let explained = choices.first().is_some_and(|best| best.misfit <= EXPLAINED);
     let chosen = |choice: &Choice| explained || choice.surface.is_like(known);
-    let Some(at) = choices.iter().position(chosen) else { return unexplained(known) };
+    let Some(at) = choices.iter().position(chosen) else {
+        return Recognised::without_support(known.clone());
+    };
     let best = choices.remove(at);
     let second = choices.into_iter().find(|other| !other.surface.is_like(&best.surface));
     let confidence = confidence(&best, second.as_ref());
     let runner_up = second.filter(|second| is_noteworthy(&best, second)).map(|c| c.surface);
+    Recognised { confidence, runner_up, ..settled(scene, faces, best.surface, marks) }
+}
+
+/// The surface of that type that most vertices of a region agree on; nothing says how sure the type is.
+pub fn settled(scene: &Scene, faces: &[u32], start: Surface, marks: &mut Marks) -> Recognised {
     let gathered = scene.samples(faces, PARAMETERS, marks);
-    let (surface, support) = settle(best.surface, gathered.points, scene.evidence.sigma / 4.0);
+    let (surface, support) = settle(start, gathered.points, scene.evidence.sigma / 4.0);
     let sigma = deviation(scene, &surface, &support);
     // The samples stand for all vertices, of which so many err independently.
     let independent = independent(gathered.total as f64, scene.evidence.independent);
     let sigma = sigma * (support.len() as f64 / independent.max(1.0)).sqrt();
-    Recognised { surface, confidence, runner_up, support, sigma, waves: None, scatter: None }
+    Recognised { support, sigma, ..Recognised::without_support(surface) }
 }
 
 /// Fewest and most independent samples of a region on a scan, whose waves are long: a small region
@@ -66,20 +88,6 @@ fn independent(vertices: f64, fraction: f64) -> f64 {
         (vertices * fraction).clamp(WAVES.0, WAVES.1).min(vertices)
     } else {
         vertices
-    }
-}
-
-/// Free-form, as far as we know.
-fn unexplained(known: &Surface) -> Recognised {
-    let surface = known.clone();
-    Recognised {
-        surface,
-        confidence: 0.5,
-        runner_up: None,
-        support: Vec::new(),
-        sigma: 0.0,
-        waves: None,
-        scatter: None,
     }
 }
 

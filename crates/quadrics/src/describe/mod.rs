@@ -5,7 +5,7 @@ mod fit;
 mod signs;
 
 pub use confidence::{confidence, is_noteworthy};
-pub use fit::{Recognised, fit};
+pub use fit::{Recognised, fit, settled};
 
 use rayon::prelude::*;
 

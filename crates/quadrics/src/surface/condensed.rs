@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::waves::Waves;
-use super::{Revolved, Shape, Surface, centroid};
+use super::{Revolved, Shape, Surface, axis, centroid, direction};
 use crate::math::{Point, Unit, Vector, frame};
 
 /// A fitted surface, and what deviating from it costs.
@@ -68,15 +68,12 @@ impl Condensed {
         let direction = direction(surface).unwrap_or(Vector::z_axis());
         let foot = match surface {
             Surface::Plane(s) => center - s.normal.into_inner() * s.distance(center),
-            Surface::Cylinder(s) => on_line(s.point, s.axis, center),
-            Surface::Cone(s) => on_line(s.apex, s.axis, center),
             Surface::Torus(s) => s.center,
             Surface::Sphere(s) => s.center,
-            Surface::Quadric(s) => {
-                let own = Revolved::of(s)?;
-                on_line(own.point, own.axis, center)
+            _ => {
+                let (point, axis) = axis(surface)?;
+                point + axis.into_inner() * axis.dot(&(center - point))
             }
-            Surface::FreeForm => return None,
         };
         let (u, v) = frame(&direction);
         let frame = [u.into_inner(), v.into_inner(), direction.into_inner()];
@@ -225,23 +222,6 @@ pub fn rows(
 const HEARD: usize = 150;
 /// Standard deviation, in radians and sizes, from which on a fit is no small neighbourhood.
 const VAGUE: f64 = 0.5;
-
-/// A plane's normal, or the axis of a cylinder, cone, torus or quadric of revolution.
-pub fn direction(surface: &Surface) -> Option<Unit> {
-    match surface {
-        Surface::Plane(s) => Some(s.normal),
-        Surface::Cylinder(s) => Some(s.axis),
-        Surface::Cone(s) => Some(s.axis),
-        Surface::Torus(s) => Some(s.axis),
-        Surface::Quadric(s) => Some(Revolved::of(s)?.axis),
-        Surface::Sphere(_) | Surface::FreeForm => None,
-    }
-}
-
-/// The point of a line nearest to another.
-fn on_line(point: Point, axis: Unit, near: Point) -> Point {
-    point + axis.into_inner() * axis.dot(&(near - point))
-}
 
 #[cfg(test)]
 mod tests {

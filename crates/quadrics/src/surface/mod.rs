@@ -3,6 +3,7 @@
 //! Distances are signed: positive on the side that [`Shape::normal`] points to, which is away from
 //! the centre, the axis or the spine. Lengths are in the unit of the points, angles in radians.
 
+mod axis;
 mod condensed;
 mod cone;
 mod cylinder;
@@ -18,6 +19,7 @@ pub mod polynomial;
 pub mod quadrature;
 mod quadric;
 mod refine;
+pub mod related;
 pub mod revolved;
 pub mod round;
 pub mod select;
@@ -28,7 +30,8 @@ mod torus;
 mod uncertainty;
 mod waves;
 
-pub use condensed::{Condensed, direction};
+pub use axis::{axis, direction};
+pub use condensed::Condensed;
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use plane::Plane;

@@ -7,7 +7,7 @@
 use super::family::Family;
 use super::start::{self, Samples};
 use super::{Shape, Surface, general, refine_within};
-use crate::math::{Point, Vector};
+use crate::math::Point;
 
 /// What is known of the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,7 +178,7 @@ fn best_of(starts: impl Iterator<Item = Surface>, samples: Samples) -> Option<Su
 }
 
 /// Whether a surface is of sensible size and seen from one side.
-pub(super) fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> bool {
+pub fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> bool {
     let sensible = match surface {
         Surface::Sphere(s) => s.radius < LARGEST_RADIUS,
         Surface::Cylinder(s) => s.radius < LARGEST_RADIUS,
@@ -198,11 +198,23 @@ pub(super) fn plausible(surface: &Surface, samples: Samples, evidence: Evidence)
 /// Whether the samples' normals agree with the surface's, up to one sign: a tube as thin as the
 /// noise runs through the cloud with both its sides.
 fn one_sided(surface: &Surface, samples: Samples, evidence: Evidence) -> bool {
-    let cosine = |(p, n): (&Point, &Vector)| surface.normal(*p).map_or(0.0, |m| m.dot(n));
-    let cosines = samples.barycentres.iter().zip(samples.normals).map(cosine);
-    let count = samples.points.len() as f64;
     if evidence.general {
-        return cosines.sum::<f64>().abs() > AGREEMENT * count;
+        return agreement(surface, samples) > AGREEMENT;
     }
-    cosines.map(f64::signum).sum::<f64>().abs() > ONE_SIDED * count
+    mean(cosines(surface, samples).map(f64::signum)).abs() > ONE_SIDED
+}
+
+/// Mean cosine between the samples' normals and the surface's, up to one sign.
+pub fn agreement(surface: &Surface, samples: Samples) -> f64 {
+    mean(cosines(surface, samples)).abs()
+}
+
+fn cosines(surface: &Surface, samples: Samples) -> impl ExactSizeIterator<Item = f64> {
+    let pairs = samples.barycentres.iter().zip(samples.normals);
+    pairs.map(|(p, n)| surface.normal(*p).map_or(0.0, |m| m.dot(n)))
+}
+
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len().max(1) as f64;
+    values.sum::<f64>() / count
 }

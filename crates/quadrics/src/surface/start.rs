@@ -163,7 +163,9 @@ pub fn cylinder(samples: Samples, axis: &Unit) -> Option<Surface> {
 }
 
 /// Centre and radius of the circle of least squared power.
-fn circle(points: impl Iterator<Item = Vector2<f64>> + Clone) -> Option<(Vector2<f64>, f64)> {
+pub(super) fn circle(
+    points: impl Iterator<Item = Vector2<f64>> + Clone,
+) -> Option<(Vector2<f64>, f64)> {
     let count = points.clone().count() as f64;
     let mid = points.clone().sum::<Vector2<f64>>() / count;
     let mean = points.clone().map(|p| (p - mid).norm_squared()).sum::<f64>() / count;
