@@ -2,9 +2,9 @@
 //! where its own faces hide the surfaces.
 
 use crate::context::Context;
-use crate::describe::fit_all;
+use crate::describe::{Recognised, fit_all};
 use crate::error::Result;
-use crate::impose::equalised;
+use crate::impose::{aligned, equalised};
 use crate::mesh::Working;
 use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
@@ -13,6 +13,7 @@ use crate::recognise::assign::{self, models};
 use crate::recognise::{self, Outcome, carry, evidence, expand, moves, patch, scene::Scene};
 use crate::retype::retype;
 use crate::surface::Surface;
+use crate::surface::related::Shown;
 use crate::surface::select::Evidence;
 
 /// A mesh in its cube, and what is asked of it.
@@ -50,6 +51,9 @@ pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<O
     let mut found = context.timed("back", |_| Ok(back(outcome, cube, &parents, scene)))?;
     // On scans surfaces that hold still tear regions; a number that was asked for stays.
     if options.constraints.is_some() && !scene.correlated() && options.regions.is_none() {
+        if start.is_none() && !scene.evidence.general {
+            resume(context, scene, &mut found)?;
+        }
         regroup(context, scene, &mut found)?;
     }
     // Regions that are given or counted stay; on a clean mesh no height field fits as surfaces do.
@@ -166,12 +170,25 @@ fn back(mut outcome: Outcome, working: &Working, parents: &[u32], scene: &Scene)
     }
 }
 
-/// Lets the constrained surfaces divide the faces anew (paper, 4.3(5)); where that tears regions,
-/// all stays as it was.
-fn regroup(context: &mut Context, scene: &Scene, found: &mut Outcome) -> Result<()> {
+/// Goes on with the directions and axes that the surfaces show.
+fn resume(context: &mut Context, scene: &mut Scene, found: &mut Outcome) -> Result<()> {
+    let aligned = aligned(&refit(context, scene, found)?);
+    scene.shown = Shown::by(&aligned);
+    let models = models(scene, &Regions::new(&found.labels), aligned.iter());
+    recognise::resume(context, scene, models, found)
+}
+
+fn refit(context: &mut Context, scene: &mut Scene, found: &Outcome) -> Result<Vec<Recognised>> {
     let mut fits = context
         .timed("describe", |context| fit_all(context, scene, &found.labels, &found.surfaces))?;
     retype(context, scene, &found.labels, &mut fits)?;
+    Ok(fits)
+}
+
+/// Lets the constrained surfaces divide the faces anew (paper, 4.3(5)); where that tears regions,
+/// all stays as it was.
+fn regroup(context: &mut Context, scene: &mut Scene, found: &mut Outcome) -> Result<()> {
+    let fits = refit(context, scene, found)?;
     let surfaces = context.timed("constrain", |_| Ok(equalised(&fits)))?;
     context.timed("assign", |_| {
         let mut labels = found.labels.clone();

@@ -61,7 +61,7 @@ fn run(
     let mut fits =
         context.timed("describe", |context| fit_all(context, &scene, &on_clean, &surfaces))?;
     if demands.is_some() && options.preset == Preset::Default {
-        retype(context, &scene, &on_clean, &mut fits)?;
+        retype(context, &mut scene, &on_clean, &mut fits)?;
     }
     let beside = neighbours(&on_clean, scene.adjacency, fits.len());
     let (relations, dimensions) = match demands {

@@ -14,6 +14,7 @@ pub mod moves;
 mod open;
 pub mod patch;
 mod pool;
+pub mod related;
 pub mod scene;
 mod seams;
 mod split;
@@ -76,6 +77,22 @@ pub fn recognise(
     }
     let surfaces = models.into_iter().map(|m| m.surface).collect();
     Ok(Outcome { labels, surfaces, energy: energies })
+}
+
+/// Goes on where more is known of the scene than before.
+///
+/// # Errors
+/// Cancellation.
+pub fn resume(
+    context: &mut Context,
+    scene: &Scene,
+    mut models: Vec<Model>,
+    found: &mut Outcome,
+) -> Result<()> {
+    let Outcome { labels, surfaces, energy } = found;
+    optimise(context, scene, &mut models, labels, energy, true, AFTER)?;
+    *surfaces = models.into_iter().map(|model| model.surface).collect();
+    Ok(())
 }
 
 /// Rounds of assigning, fitting and merging, until the energy settles.
@@ -155,8 +172,8 @@ fn given(context: &mut Context, scene: &Scene, labels: &[u32]) -> Result<(Labels
     Ok((labels, models))
 }
 
-/// Rounds of the loop, and those after general quadrics were found: neighbours give back what they
-/// had taken and may go (one leaves them, four drift).
+/// Rounds of the loop, and those after general quadrics were found, or directions: neighbours give
+/// back what they had taken and may go (one leaves them, four drift).
 const ROUNDS: usize = 4;
 const AFTER: usize = 2;
 /// Connected faces that no surface explains and that are more than this are free-form.

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::assign::{Model, face_cost};
-use super::scene::{Marks, Scene};
+use super::related;
+use super::scene::{Gathered, Marks, Scene};
 use crate::mesh::NONE;
 use crate::partition::{Regions, compact};
 use crate::surface::select::{self, Choice, Evidence};
@@ -40,7 +41,7 @@ fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
     }
     let gathered = scene.samples(faces, SAMPLES, marks);
     let (samples, total, evidence) = (gathered.samples(), gathered.total, scene.evidence);
-    let simple = select::choose(samples, total, evidence).into_iter().next();
+    let simple = best(scene, &gathered, evidence);
     let quadric = matches!(model.surface, Surface::Quadric(_));
     // Under noise only a region that is a general quadric already may be one.
     let general = (quadric && !evidence.general).then(|| general::choose(samples, total, evidence));
@@ -61,8 +62,14 @@ pub(super) fn choose(
     evidence: Evidence,
     marks: &mut Marks,
 ) -> Option<Choice> {
-    let gathered = scene.samples(faces, SAMPLES, marks);
-    select::choose(gathered.samples(), gathered.total, evidence).into_iter().next()
+    best(scene, &scene.samples(faces, SAMPLES, marks), evidence)
+}
+
+/// The best surface, free or related.
+fn best(scene: &Scene, gathered: &Gathered, evidence: Evidence) -> Option<Choice> {
+    let free = select::choose(gathered.samples(), gathered.total, evidence).into_iter().next()?;
+    let (than, bound) = (&free.surface, free.criterion);
+    Some(related::best(scene, gathered, evidence, than, bound, |_| true).unwrap_or(free))
 }
 
 /// What a surface is worth for some faces.
@@ -73,8 +80,7 @@ pub(super) fn judge(
     evidence: Evidence,
     marks: &mut Marks,
 ) -> Choice {
-    let gathered = scene.samples(faces, SAMPLES, marks);
-    select::judge(surface.clone(), gathered.samples(), gathered.total, evidence)
+    related::priced(scene, surface.clone(), &scene.samples(faces, SAMPLES, marks), evidence)
 }
 
 /// Removes labels without faces and their models.
@@ -138,7 +144,8 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
             continue;
         }
         let vertices = (faces.len() as f64 / 2.0).max(2.0);
-        let price = keep + 2.0 * select::cost(&models[id].surface) * vertices.ln() / 2.0;
+        let freedom = select::cost(&models[id].surface) - scene.shown.held(&models[id].surface).0;
+        let price = keep + freedom * vertices.ln();
         let mut gain = price;
         let mut moved: Vec<u32> = Vec::with_capacity(faces.len());
         for &face in faces {

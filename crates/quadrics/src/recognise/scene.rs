@@ -6,6 +6,7 @@ use crate::math::{Point, Vector};
 use crate::mesh::{Adjacency, Geometry, Mesh, Working};
 use crate::prepare::{noise, normals};
 use crate::surface::Shape;
+use crate::surface::related::Shown;
 use crate::surface::select::Evidence;
 
 /// A mesh in the unit cube and all that is derived from it once.
@@ -24,6 +25,8 @@ pub struct Scene<'a> {
     pub edge: f64,
     /// Faces for one of the mesh that surfaces are sought on: 1 where it is this one.
     pub grain: u32,
+    /// Directions and axes that the surfaces found so far show; none at first.
+    pub shown: Shown,
 }
 
 /// Rounding of the input's coordinates, in sizes: no sigma is smaller. Files carry five to seven
@@ -62,7 +65,16 @@ impl<'a> Scene<'a> {
         let evidence =
             Evidence { sigma, independent: 1.0, normal_sigma: NORMAL_FLOOR, general: true };
         let normals = Cow::Borrowed(&geometry.normals[..]);
-        Self { mesh, geometry, adjacency, normals, evidence, edge, grain: 1 }
+        Self {
+            mesh,
+            geometry,
+            adjacency,
+            normals,
+            evidence,
+            edge,
+            grain: 1,
+            shown: Shown::default(),
+        }
     }
 
     /// Filters the normals as far as the noise asks.

@@ -1,51 +1,112 @@
 //! Planes and cylinders that stand in a known direction or about a known axis: fits of less freedom.
+//!
+//! Most surfaces of a part stand along directions that others show, and about axes that others have.
+//! A cylinder along a known direction has three degrees of freedom, not five.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
-use super::{Cylinder, Plane, Surface, start};
+use super::{Cylinder, Plane, Surface, axis, direction, start};
 use crate::math::{Point, Unit, frame};
 
 /// Iterations of a circle's fit, and the step, in sizes, after which it has converged.
 const ITERATIONS: usize = 15;
 const SETTLED: f64 = 1e-9;
 
-/// The surface of its kind that is nearest to some points.
-pub struct Related {
-    /// The surface.
-    pub surface: Surface,
-    /// How many of its degrees of freedom are known.
-    pub held: f64,
+/// Directions and axes are one when sine and distance are below this, in radians and sizes.
+const ONE: f64 = 1e-9;
+/// A direction is shown by so many surfaces, an axis by so many.
+const WAYS: usize = 3;
+const LINES: usize = 2;
+
+/// Directions and axes that several surfaces show.
+#[derive(Debug, Clone, Default)]
+pub struct Shown {
+    ways: Vec<Unit>,
+    lines: Vec<(Point, Unit)>,
 }
 
-/// The planes across and along a direction and the cylinder along it.
-pub fn along(points: &[Point], direction: &Unit) -> Vec<Related> {
+impl Shown {
+    /// What aligned surfaces show.
+    pub fn by(surfaces: &[Surface]) -> Self {
+        Self {
+            ways: repeated(surfaces.iter().filter_map(direction), is_parallel, WAYS),
+            lines: repeated(surfaces.iter().filter_map(axis), is_coaxial, LINES),
+        }
+    }
+
+    /// The nearest planes and cylinders that stand in what is shown.
+    pub fn nearest(&self, points: &[Point]) -> impl Iterator<Item = Surface> {
+        let along = self.ways.iter().flat_map(|way| along(points, way));
+        along.chain(self.lines.iter().flat_map(|(point, way)| about(points, *point, way)))
+    }
+
+    /// How many degrees of freedom of a surface are shown, and among how many directions or axes.
+    pub fn held(&self, surface: &Surface) -> (f64, usize) {
+        let among = |ways: fn(&Unit, &Unit) -> bool, way| self.ways.iter().any(|w| ways(w, &way));
+        let directions = self.ways.len();
+        match surface {
+            Surface::Plane(s) if among(is_parallel, s.normal) => (2.0, directions),
+            Surface::Plane(s) if among(is_upright, s.normal) => (1.0, directions),
+            Surface::Cylinder(s)
+                if self.lines.iter().any(|l| is_coaxial(l, &(s.point, s.axis))) =>
+            {
+                (4.0, self.lines.len())
+            }
+            Surface::Cylinder(s) if among(is_parallel, s.axis) => (2.0, directions),
+            _ => (0.0, 1),
+        }
+    }
+}
+
+fn is_parallel(one: &Unit, other: &Unit) -> bool {
+    one.cross(other).norm() < ONE
+}
+
+fn is_upright(one: &Unit, other: &Unit) -> bool {
+    one.dot(other).abs() < ONE
+}
+
+fn is_coaxial((p, one): &(Point, Unit), (q, other): &(Point, Unit)) -> bool {
+    is_parallel(one, other) && (p - q).cross(one).norm() < ONE
+}
+
+/// What comes at least so often, each once, in the order of the first.
+fn repeated<T>(all: impl Iterator<Item = T>, same: fn(&T, &T) -> bool, least: usize) -> Vec<T> {
+    let mut counted: Vec<(T, usize)> = Vec::new();
+    for new in all {
+        match counted.iter_mut().find(|(known, _)| same(known, &new)) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((new, 1)),
+        }
+    }
+    counted.into_iter().filter(|(_, count)| *count >= least).map(|(known, _)| known).collect()
+}
+
+/// The nearest planes across and along a direction and the nearest cylinder along it.
+fn along(points: &[Point], direction: &Unit) -> impl Iterator<Item = Surface> + use<> {
     let (u, v) = frame(direction);
     let flat: Vec<_> =
         points.iter().map(|p| Vector2::new(u.dot(&p.coords), v.dot(&p.coords))).collect();
     let beside = |at: Vector2<f64>| u.into_inner() * at.x + v.into_inner() * at.y;
     let wall = line(&flat).map(|(normal, offset)| {
-        let normal = Unit::new_normalize(beside(normal));
-        Related { surface: Surface::Plane(Plane { normal, offset }), held: 1.0 }
+        Surface::Plane(Plane { normal: Unit::new_normalize(beside(normal)), offset })
     });
     let bore = circle(&flat).map(|(center, radius)| {
         let point = Point::from(beside(center));
-        let surface = Surface::Cylinder(Cylinder { point, axis: *direction, radius });
-        Related { surface, held: 2.0 }
+        Surface::Cylinder(Cylinder { point, axis: *direction, radius })
     });
-    [across(points, direction)].into_iter().chain(wall).chain(bore).collect()
+    [Some(across(points, direction)), wall, bore].into_iter().flatten()
 }
 
-/// The plane across an axis and the cylinder about it.
-pub fn about(points: &[Point], point: Point, axis: &Unit) -> [Related; 2] {
-    let far = |p: &Point| (p - point).cross(axis).norm();
-    let radius = mean(points.iter().map(far));
-    let surface = Surface::Cylinder(Cylinder { point, axis: *axis, radius });
-    [across(points, axis), Related { surface, held: 4.0 }]
+/// The nearest plane across an axis and the nearest cylinder about it.
+fn about(points: &[Point], point: Point, axis: &Unit) -> [Surface; 2] {
+    let radius = mean(points.iter().map(|p| (p - point).cross(axis).norm()));
+    [across(points, axis), Surface::Cylinder(Cylinder { point, axis: *axis, radius })]
 }
 
-fn across(points: &[Point], direction: &Unit) -> Related {
+fn across(points: &[Point], direction: &Unit) -> Surface {
     let offset = mean(points.iter().map(|p| direction.dot(&p.coords)));
-    Related { surface: Surface::Plane(Plane { normal: *direction, offset }), held: 2.0 }
+    Surface::Plane(Plane { normal: *direction, offset })
 }
 
 fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
@@ -107,25 +168,36 @@ mod tests {
         (0..30).flat_map(|i| (0..10).map(move |j| at(i, j))).collect()
     }
 
-    fn worst(found: &Related, points: &[Point]) -> f64 {
-        points.iter().map(|p| found.surface.distance(*p).unwrap().abs()).fold(0.0, f64::max)
+    fn worst(found: &Surface, points: &[Point]) -> f64 {
+        points.iter().map(|p| found.distance(*p).unwrap().abs()).fold(0.0, f64::max)
     }
 
     #[test]
-    fn what_lies_along_a_direction_is_found_exactly() {
+    fn what_stands_along_a_direction_is_found_exactly() {
         let round = points(Some(0.2));
-        let [_, _, bore] = &along(&round, &axis())[..] else { panic!() };
-        assert!(worst(bore, &round) < 1e-9);
+        assert!(along(&round, &axis()).any(|s| worst(&s, &round) < 1e-9));
         let flat = points(None);
-        let [top, wall, ..] = &along(&flat, &axis())[..] else { panic!() };
-        assert!(worst(wall, &flat) < 1e-12);
-        assert!(worst(top, &flat) > 0.05);
+        assert!(along(&flat, &axis()).any(|s| worst(&s, &flat) < 1e-12));
+        let top: Vec<_> =
+            (0..9).map(|i| Point::from(frame(&axis()).0.into_inner() * f64::from(i))).collect();
+        assert!(along(&top, &axis()).any(|s| worst(&s, &top) < 1e-12));
     }
 
     #[test]
-    fn a_bore_about_its_axis_needs_a_radius_only() {
-        let round = points(Some(0.2));
-        let [_, bore] = about(&round, Point::new(0.5, 0.5, 0.5), &axis());
-        assert!(worst(&bore, &round) < 1e-12);
+    fn what_is_shown_costs_less() {
+        let bore = |radius| {
+            let point = Point::new(0.5, 0.5, 0.5);
+            Surface::Cylinder(Cylinder { point, axis: axis(), radius })
+        };
+        let top = Surface::Plane(Plane::through(Point::origin(), axis()));
+        let shown = Shown::by(&[bore(0.1), bore(0.2), top.clone()]);
+        assert_eq!(shown.held(&top), (2.0, 1));
+        assert_eq!(shown.held(&bore(0.3)), (4.0, 1));
+        let wall = Surface::Plane(Plane::through(Point::origin(), frame(&axis()).0));
+        assert_eq!(shown.held(&wall).0, 1.0);
+        let oblique = Unit::new_normalize(Vector::new(0.7, 0.1, 1.0));
+        assert_eq!(shown.held(&Surface::Plane(Plane::through(Point::origin(), oblique))).0, 0.0);
+        assert_eq!(Shown::by(&[bore(0.1), top.clone()]).held(&top).0, 0.0);
+        assert!(shown.nearest(&points(Some(0.2))).any(|s| worst(&s, &points(Some(0.2))) < 1e-9));
     }
 }
