@@ -44,3 +44,59 @@ pub fn best(
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::scene::Marks;
+    use super::*;
+    use crate::math::{Point, Vector};
+    use crate::mesh::{Mesh, Working};
+    use crate::surface::related::Shown;
+    use crate::surface::{Plane, select};
+
+    const SIGMA: f64 = 0.004;
+    const ALONG: u32 = 16;
+    const ACROSS: u32 = 5;
+
+    /// A quarter of a bore along z, whose vertices stray by sigma.
+    fn fillet() -> Mesh {
+        let at = |i: u32, j: u32| {
+            let turn = f64::from(j) * std::f64::consts::FRAC_PI_2 / f64::from(ACROSS - 1);
+            // Of no order that a surface could follow.
+            let stray = f64::from((i * 7 + j * 11 + i * j * 5) % 17) / 8.0 - 1.0;
+            let radius = 0.05 + 1.7 * SIGMA * stray;
+            Point::new(radius * turn.cos(), radius * turn.sin(), f64::from(i) * 0.02)
+        };
+        let corner = |i: u32, j: u32| i * ACROSS + j;
+        let quads = (0..ALONG - 1).flat_map(|i| (0..ACROSS - 1).map(move |j| (i, j)));
+        let faces = quads.flat_map(|(i, j)| {
+            let [a, b] = [corner(i, j), corner(i, j + 1)];
+            let [c, d] = [corner(i + 1, j), corner(i + 1, j + 1)];
+            [[a, b, c], [b, d, c]]
+        });
+        let positions = (0..ALONG).flat_map(|i| (0..ACROSS).map(move |j| at(i, j))).collect();
+        Mesh { positions, faces: faces.collect() }
+    }
+
+    #[test]
+    fn a_fillet_that_passes_for_a_plane_is_told_by_the_direction_of_its_walls() {
+        let working = Working::new(fillet());
+        let mut scene = Scene::raw(&working);
+        scene.evidence =
+            // So noisy that the arc hides in it.
+            Evidence { sigma: 2.2 * SIGMA, independent: 1.0, normal_sigma: 0.3, general: false };
+        let faces: Vec<u32> = (0..working.len() as u32).collect();
+        let gathered = scene.samples(&faces, 200, &mut Marks::default());
+        let free = select::choose(gathered.samples(), gathered.total, scene.evidence).remove(0);
+        assert!(matches!(free.surface, Surface::Plane(_)), "{free:?}");
+        let told = |scene: &Scene| {
+            let (than, bound) = (&free.surface, free.criterion);
+            best(scene, &gathered, scene.evidence, than, bound, |_| true).map(|c| c.surface)
+        };
+        assert_eq!(told(&scene), None);
+        let top = Plane::through(Point::new(0.0, 0.0, 0.3), Vector::z_axis());
+        scene.shown = Shown::by(&vec![Surface::Plane(top); 3]);
+        let Some(Surface::Cylinder(found)) = told(&scene) else { panic!("{:?}", told(&scene)) };
+        assert!((found.radius - 0.05).abs() < 0.01, "{found:?}");
+    }
+}
