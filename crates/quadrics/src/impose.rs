@@ -169,9 +169,8 @@ impl Places<'_> {
         }
         self.at.binary_search(&region).map_err(|_| {
             let name = self.fits[region].surface.class_name(1.0);
-            let text = format!(
-                "constraints: {what}: region {region} is a {name} that takes no part in relations"
-            );
+            let text =
+                format!("constraints: {what}: region {region} ({name}) takes no part in relations");
             Error::Option(text)
         })
     }
