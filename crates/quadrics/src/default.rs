@@ -173,11 +173,13 @@ fn back(mut outcome: Outcome, working: &Working, parents: &[u32], scene: &Scene)
 /// Goes on with the directions and axes that the surfaces show.
 fn resume(context: &mut Context, scene: &mut Scene, found: &mut Outcome) -> Result<()> {
     let aligned = aligned(&refit(context, scene, found)?);
+    // New types show more.
     scene.shown = Shown::by(&aligned);
     let models = models(scene, &Regions::new(&found.labels), aligned.iter());
     recognise::resume(context, scene, models, found)
 }
 
+/// The surfaces of the regions by the directions and axes that the scene learns from them.
 fn refit(context: &mut Context, scene: &mut Scene, found: &Outcome) -> Result<Vec<Recognised>> {
     let mut fits = context
         .timed("describe", |context| fit_all(context, scene, &found.labels, &found.surfaces))?;

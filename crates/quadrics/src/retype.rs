@@ -61,12 +61,14 @@ fn better(
         return None;
     }
     let gathered = scene.samples(faces, SAMPLES, marks);
-    let best = |bound: f64, counts: &dyn Fn(&Surface) -> bool| {
-        related::best(scene, &gathered, scene.evidence, surface, bound, counts)
+    let (like, unlike): (Vec<_>, Vec<_>) =
+        scene.shown.nearest(&gathered.points).partition(|new| new.is_like(surface));
+    let best = |bound: f64, related: Vec<Surface>| {
+        related::best(scene, &gathered, scene.evidence, surface, bound, related.into_iter())
     };
     let mut own = related::priced(scene, surface.clone(), &gathered, scene.evidence);
-    if let Some(like) = best(own.criterion, &|new| new.is_like(surface)) {
+    if let Some(like) = best(own.criterion, like) {
         own.criterion = like.criterion;
     }
-    best(own.criterion - MARGIN, &|new| !new.is_like(surface)).map(|new| (new, own))
+    best(own.criterion - MARGIN, unlike).map(|new| (new, own))
 }

@@ -69,7 +69,8 @@ pub(super) fn choose(
 fn best(scene: &Scene, gathered: &Gathered, evidence: Evidence) -> Option<Choice> {
     let free = select::choose(gathered.samples(), gathered.total, evidence).into_iter().next()?;
     let (than, bound) = (&free.surface, free.criterion);
-    Some(related::best(scene, gathered, evidence, than, bound, |_| true).unwrap_or(free))
+    let near = scene.shown.nearest(&gathered.points);
+    Some(related::best(scene, gathered, evidence, than, bound, near).unwrap_or(free))
 }
 
 /// What a surface is worth for some faces.

@@ -19,20 +19,20 @@ pub fn priced(scene: &Scene, surface: Surface, gathered: &Gathered, evidence: Ev
     choice
 }
 
-/// The best of the related surfaces that `counts`, if it is better than `bound` and the faces' normals agree
-/// with it nearly as well as with `than`.
+/// The best of some related surfaces, if it is better than `bound` and the faces' normals agree with it nearly
+/// as well as with `than`.
 pub fn best(
     scene: &Scene,
     gathered: &Gathered,
     evidence: Evidence,
     than: &Surface,
     mut bound: f64,
-    counts: impl Fn(&Surface) -> bool,
+    related: impl Iterator<Item = Surface>,
 ) -> Option<Choice> {
     let samples = gathered.samples();
     let least = agreement(than, samples) - TURNED;
     let mut best = None;
-    for surface in scene.shown.nearest(samples.points).filter(counts) {
+    for surface in related {
         let choice = priced(scene, surface, gathered, evidence);
         if choice.criterion < bound
             && plausible(&choice.surface, samples, evidence)
@@ -91,7 +91,8 @@ mod tests {
         assert!(matches!(free.surface, Surface::Plane(_)), "{free:?}");
         let told = |scene: &Scene| {
             let (than, bound) = (&free.surface, free.criterion);
-            best(scene, &gathered, scene.evidence, than, bound, |_| true).map(|c| c.surface)
+            let related = scene.shown.nearest(&gathered.points);
+            best(scene, &gathered, scene.evidence, than, bound, related).map(|c| c.surface)
         };
         assert_eq!(told(&scene), None);
         let top = Plane::through(Point::new(0.0, 0.0, 0.3), Vector::z_axis());

@@ -20,7 +20,7 @@ pub mod quadrature;
 mod quadric;
 mod refine;
 pub mod related;
-pub mod revolved;
+mod revolved;
 pub mod round;
 pub mod select;
 mod sphere;
