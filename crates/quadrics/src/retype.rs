@@ -1,4 +1,4 @@
-//! Types once directions and axes are known.
+//! Types once directions, axes and neighbours are known.
 
 use rayon::prelude::*;
 
@@ -7,6 +7,8 @@ use crate::describe::{Recognised, confidence, is_noteworthy, settled};
 use crate::error::Result;
 use crate::impose::aligned;
 use crate::partition::Regions;
+use crate::recognise::assign::models;
+use crate::recognise::blend::Around;
 use crate::recognise::related;
 use crate::recognise::scene::{Marks, Scene};
 use crate::surface::Surface;
@@ -20,7 +22,7 @@ const SAMPLES: usize = 400;
 const MARGIN: f64 = 3.0;
 
 /// Learns the directions and axes that the surfaces show, and makes planes and cylinders of the regions
-/// that stand there. On a clean mesh the faces alone tell the type.
+/// that stand there; under independent noise blends of those between two walls, too. On a clean mesh the faces alone tell the type.
 ///
 /// # Errors
 /// Cancellation.
@@ -36,9 +38,12 @@ pub fn retype(
     context.timed("retype", |_| {
         scene.shown = Shown::by(&aligned(fits));
         let (scene, regions) = (&*scene, Regions::new(labels));
+        let models = models(scene, &regions, fits.iter().map(|fit| &fit.surface));
+        let around = Around { scene, models: &models, labels, regions: &regions };
         fits.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (i, fit)| {
             let faces = regions.faces(i);
-            if let Some((new, old)) = better(scene, faces, &fit.surface, marks) {
+            let blend = scene.noisy().then(|| blended(&around, i, marks)).flatten();
+            if let Some((new, old)) = blend.or_else(|| better(scene, faces, &fit.surface, marks)) {
                 let confidence = confidence(&new, Some(&old));
                 let runner_up = is_noteworthy(&new, &old).then_some(old.surface);
                 let settled = settled(scene, faces, new.surface, marks);
@@ -47,6 +52,13 @@ pub fn retype(
         });
         Ok(())
     })
+}
+
+/// The blend of another type that a region is rather, and its surface, each with the criterion that they were
+/// compared by.
+fn blended(around: &Around, id: usize, marks: &mut Marks) -> Option<(Choice, Choice)> {
+    let gathered = around.scene.samples(around.regions.faces(id), SAMPLES, marks);
+    around.rather(id, &gathered).filter(|(new, old)| !new.surface.is_like(&old.surface))
 }
 
 /// The plane or cylinder of another type that is shown by more than the surface, and the surface, each

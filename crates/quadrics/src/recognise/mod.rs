@@ -1,6 +1,7 @@
 //! `preset="default"`: the surfaces of a part, whatever its noise, with nothing to tune.
 
 pub mod assign;
+pub mod blend;
 pub mod carry;
 pub mod count;
 mod cut;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::assign::{Model, face_cost};
+use super::blend;
 use super::related;
 use super::scene::{Gathered, Marks, Scene};
 use crate::mesh::NONE;
@@ -20,7 +21,7 @@ const KEEP_SCAN: f64 = 30.0;
 /// Vertices that a fit looks at.
 pub(super) const SAMPLES: usize = 200;
 
-/// Chooses the surface of every region anew.
+/// Chooses the surface of every region anew; under independent noise also among the blends of its neighbours.
 pub fn fit(scene: &Scene, models: &mut [Model], labels: &[u32]) {
     let regions = Regions::new(labels);
     models.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (id, model)| {
@@ -28,6 +29,9 @@ pub fn fit(scene: &Scene, models: &mut [Model], labels: &[u32]) {
             refit(scene, model, regions.faces(id), marks);
         }
     });
+    if scene.noisy() {
+        blend::find(scene, models, labels, &regions);
+    }
 }
 
 /// Chooses the surface of one region anew.

@@ -7,7 +7,7 @@ use crate::surface::select::{Choice, Evidence, agreement, judge, plausible};
 
 /// Mean cosine to the face normals that a related surface may lose: a tube through two rows of
 /// vertices fits them, but lies across their faces.
-const TURNED: f64 = 0.05;
+pub(super) const TURNED: f64 = 0.05;
 
 /// The criterion of a surface, less what the scene shows of it.
 pub fn priced(scene: &Scene, surface: Surface, gathered: &Gathered, evidence: Evidence) -> Choice {

@@ -4,6 +4,7 @@
 //! the centre, the axis or the spine. Lengths are in the unit of the points, angles in radians.
 
 mod axis;
+pub mod blend;
 mod condensed;
 mod cone;
 mod cylinder;

@@ -1,0 +1,105 @@
+//! Regions that are blends of their neighbours: a fillet between known walls has its radius alone to fit, where
+//! noise would let it pass for a plane, a sphere or half of a cylinder.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::assign::Model;
+use super::moves::SAMPLES;
+use super::related::TURNED;
+use super::scene::{Gathered, Marks, Scene};
+use crate::mesh::NONE;
+use crate::partition::Regions;
+use crate::surface::blend::Walls;
+use crate::surface::select::{self, Choice};
+use crate::surface::{Surface, centroid};
+
+/// Neighbours that may be walls: those of the longest borders.
+const NEIGHBOURS: usize = 4;
+/// Least radius of a blend, in edges: the mesh shows no smaller one.
+const LEAST: f64 = 0.7;
+/// Degrees of freedom of a blend, and of the chamfer between two walls that it may be instead.
+const BLEND: f64 = 1.0;
+const CHAMFER: f64 = 2.0;
+
+/// Makes blends of the regions that are blends of their neighbours rather than what they are now.
+pub fn find(scene: &Scene, models: &mut [Model], labels: &[u32], regions: &Regions) {
+    let walls = models.to_vec();
+    let around = Around { scene, models: &walls, labels, regions };
+    models.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (id, model)| {
+        if id < regions.len() {
+            let faces = regions.faces(id);
+            if let Some((blend, _)) = around.rather(id, &scene.samples(faces, SAMPLES, marks)) {
+                *model = Model::new(scene, blend.surface, faces);
+            }
+        }
+    });
+}
+
+/// Regions and their surfaces.
+#[derive(Clone, Copy)]
+pub struct Around<'a> {
+    pub scene: &'a Scene<'a>,
+    pub models: &'a [Model],
+    pub labels: &'a [u32],
+    pub regions: &'a Regions,
+}
+
+impl Around<'_> {
+    /// The blend of two neighbours that a region is rather than its surface, and that surface, each with the
+    /// criterion that they were compared by; `gathered` are samples of its faces.
+    pub fn rather(&self, id: usize, gathered: &Gathered) -> Option<(Choice, Choice)> {
+        let surface = &self.models[id].surface;
+        let freedom = match surface {
+            Surface::Quadric(_) | Surface::FreeForm => return None,
+            Surface::Plane(_) | Surface::Cone(_) => CHAMFER,
+            _ => select::cost(surface) - self.scene.shown.held(surface).0,
+        };
+        let own = self.judge(surface.clone(), freedom, gathered);
+        let least = select::agreement(surface, gathered.samples()) - TURNED;
+        let mut best: Option<Choice> = None;
+        let at = centroid(&gathered.points)?;
+        for [one, other] in self.walls(id) {
+            let walls = [one, other].map(|k| &self.models[k as usize]);
+            let blend = Walls::new(walls.map(|wall| (&wall.surface, wall.side)), at)
+                .and_then(|walls| walls.nearest(&gathered.points, LEAST * self.scene.edge));
+            let Some(blend) = blend else { continue };
+            let choice = self.judge(blend, BLEND, gathered);
+            let bound = best.as_ref().unwrap_or(&own).criterion;
+            if choice.criterion < bound
+                && select::agreement(&choice.surface, gathered.samples()) > least
+            {
+                best = Some(choice);
+            }
+        }
+        best.map(|best| (best, own))
+    }
+
+    fn judge(&self, surface: Surface, freedom: f64, gathered: &Gathered) -> Choice {
+        let Scene { evidence, .. } = self.scene;
+        let misfit = select::misfit(&surface, &gathered.points, evidence.sigma);
+        let count = evidence.samples(gathered.total);
+        let criterion = count * misfit + 2.0 * freedom * count.ln();
+        Choice { surface, misfit, criterion }
+    }
+
+    /// Pairs of neighbours that a region may be between.
+    fn walls(&self, id: usize) -> Vec<[u32; 2]> {
+        let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
+        let faces = self.regions.faces(id).iter();
+        let across = faces.flat_map(|&face| self.scene.adjacency.neighbours[face as usize]);
+        for other in across.filter(|&face| face != NONE).map(|face| self.labels[face as usize]) {
+            if other != id as u32 {
+                *borders.entry(other).or_default() += 1;
+            }
+        }
+        let mut longest: Vec<(u32, usize)> = borders.into_iter().collect();
+        longest.sort_by_key(|&(_, edges)| std::cmp::Reverse(edges));
+        longest.truncate(NEIGHBOURS);
+        let pairs = longest.iter().enumerate();
+        pairs
+            .flat_map(|(i, (one, _))| longest[i + 1..].iter().map(|(other, _)| [*one, *other]))
+            .collect()
+    }
+}
