@@ -37,12 +37,16 @@ pub fn find(scene: &Scene, models: &mut [Model], labels: &[u32], regions: &Regio
     });
 }
 
-/// Regions and their surfaces.
+/// Regions and what lies around them.
 #[derive(Clone, Copy)]
 pub struct Around<'a> {
+    /// Where they lie.
     pub scene: &'a Scene<'a>,
+    /// Their surfaces.
     pub models: &'a [Model],
+    /// Region of every face.
     pub labels: &'a [u32],
+    /// Faces of every region.
     pub regions: &'a Regions,
 }
 
@@ -57,7 +61,7 @@ impl Around<'_> {
             _ => select::cost(surface) - self.scene.shown.held(surface).0,
         };
         let own = self.judge(surface.clone(), freedom, gathered);
-        let least = select::agreement(surface, gathered.samples()) - TURNED;
+        let agreement = |surface: &Surface| select::agreement(surface, gathered.samples());
         let mut best: Option<Choice> = None;
         let at = centroid(&gathered.points)?;
         for [one, other] in self.walls(id) {
@@ -67,8 +71,7 @@ impl Around<'_> {
             let Some(blend) = blend else { continue };
             let choice = self.judge(blend, BLEND, gathered);
             let bound = best.as_ref().unwrap_or(&own).criterion;
-            if choice.criterion < bound
-                && select::agreement(&choice.surface, gathered.samples()) > least
+            if choice.criterion < bound && agreement(&choice.surface) > agreement(surface) - TURNED
             {
                 best = Some(choice);
             }

@@ -21,7 +21,7 @@ const TURN: f64 = 0.3;
 /// best is refined so often.
 const LARGEST: f64 = 0.5;
 const LARGER: f64 = 1.5;
-const REFINED: usize = 8;
+const REFINED: usize = 5;
 
 /// How curves in a plane become surfaces.
 #[derive(Debug, Clone, Copy)]
@@ -277,7 +277,7 @@ fn meets(one: &Curve, other: &Curve) -> [Option<Flat>; 2] {
 /// The points of a circle at a distance from its centre along a direction; none where there are none.
 fn beside(center: Flat, direction: Flat, along: f64, radius: f64) -> [Option<Flat>; 2] {
     let square = radius * radius - along * along;
-    if !(square >= 0.0) {
+    if square.is_nan() || square < 0.0 {
         return [None; 2];
     }
     let aside = Flat::new(-direction.y, direction.x) * square.sqrt();
