@@ -10,7 +10,7 @@ use crate::partition::Regions;
 use crate::recognise::assign::models;
 use crate::recognise::blend::Around;
 use crate::recognise::related;
-use crate::recognise::scene::{Marks, Scene};
+use crate::recognise::scene::{Gathered, Marks, Scene};
 use crate::surface::Surface;
 use crate::surface::related::Shown;
 use crate::surface::select::Choice;
@@ -22,7 +22,8 @@ const SAMPLES: usize = 400;
 const MARGIN: f64 = 3.0;
 
 /// Learns the directions and axes that the surfaces show, and makes planes and cylinders of the regions
-/// that stand there; under independent noise blends of those between two walls, too. On a clean mesh the faces alone tell the type.
+/// that stand there; under independent noise also blends of those between two walls. On a clean mesh the
+/// faces alone tell the type.
 ///
 /// # Errors
 /// Cancellation.
@@ -42,8 +43,11 @@ pub fn retype(
         let around = Around { scene, models: &models, labels, regions: &regions };
         fits.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (i, fit)| {
             let faces = regions.faces(i);
-            let blend = scene.noisy().then(|| blended(&around, i, marks)).flatten();
-            if let Some((new, old)) = blend.or_else(|| better(scene, faces, &fit.surface, marks)) {
+            let gathered = scene.samples(faces, SAMPLES, marks);
+            let blend = scene.noisy().then(|| around.rather(i, &gathered)).flatten();
+            let blend = blend.filter(|(new, old)| !new.surface.is_like(&old.surface));
+            let found = blend.or_else(|| better(scene, &gathered, &fit.surface));
+            if let Some((new, old)) = found {
                 let confidence = confidence(&new, Some(&old));
                 let runner_up = is_noteworthy(&new, &old).then_some(old.surface);
                 let settled = settled(scene, faces, new.surface, marks);
@@ -54,31 +58,18 @@ pub fn retype(
     })
 }
 
-/// The blend of another type that a region is rather, and its surface, each with the criterion that they were
-/// compared by.
-fn blended(around: &Around, id: usize, marks: &mut Marks) -> Option<(Choice, Choice)> {
-    let gathered = around.scene.samples(around.regions.faces(id), SAMPLES, marks);
-    around.rather(id, &gathered).filter(|(new, old)| !new.surface.is_like(&old.surface))
-}
-
 /// The plane or cylinder of another type that is shown by more than the surface, and the surface, each
 /// with the criterion that they were compared by.
-fn better(
-    scene: &Scene,
-    faces: &[u32],
-    surface: &Surface,
-    marks: &mut Marks,
-) -> Option<(Choice, Choice)> {
+fn better(scene: &Scene, gathered: &Gathered, surface: &Surface) -> Option<(Choice, Choice)> {
     if matches!(surface, Surface::FreeForm | Surface::Quadric(_)) {
         return None;
     }
-    let gathered = scene.samples(faces, SAMPLES, marks);
     let (like, unlike): (Vec<_>, Vec<_>) =
         scene.shown.nearest(&gathered.points).partition(|new| new.is_like(surface));
     let best = |bound: f64, related: Vec<Surface>| {
-        related::best(scene, &gathered, scene.evidence, surface, bound, related.into_iter())
+        related::best(scene, gathered, scene.evidence, surface, bound, related.into_iter())
     };
-    let mut own = related::priced(scene, surface.clone(), &gathered, scene.evidence);
+    let mut own = related::priced(scene, surface.clone(), gathered, scene.evidence);
     if let Some(like) = best(own.criterion, like) {
         own.criterion = like.criterion;
     }

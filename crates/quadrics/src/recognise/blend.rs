@@ -3,12 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
 use super::assign::Model;
-use super::moves::SAMPLES;
 use super::related::TURNED;
-use super::scene::{Gathered, Marks, Scene};
+use super::scene::{Gathered, Scene};
 use crate::mesh::NONE;
 use crate::partition::Regions;
 use crate::surface::blend::Walls;
@@ -22,20 +19,6 @@ const LEAST: f64 = 0.7;
 /// Degrees of freedom of a blend, and of the chamfer between two walls that it may be instead.
 const BLEND: f64 = 1.0;
 const CHAMFER: f64 = 2.0;
-
-/// Makes blends of the regions that are blends of their neighbours rather than what they are now.
-pub fn find(scene: &Scene, models: &mut [Model], labels: &[u32], regions: &Regions) {
-    let walls = models.to_vec();
-    let around = Around { scene, models: &walls, labels, regions };
-    models.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (id, model)| {
-        if id < regions.len() {
-            let faces = regions.faces(id);
-            if let Some((blend, _)) = around.rather(id, &scene.samples(faces, SAMPLES, marks)) {
-                *model = Model::new(scene, blend.surface, faces);
-            }
-        }
-    });
-}
 
 /// Regions and what lies around them.
 #[derive(Clone, Copy)]
@@ -60,7 +43,11 @@ impl Around<'_> {
             Surface::Plane(_) | Surface::Cone(_) => CHAMFER,
             _ => select::cost(surface) - self.scene.shown.held(surface).0,
         };
-        let own = self.judge(surface.clone(), freedom, gathered);
+        let judge = |surface: Surface, freedom: f64| {
+            let Gathered { points, total, .. } = gathered;
+            select::judge_at(freedom, surface, points, *total, self.scene.evidence)
+        };
+        let own = judge(surface.clone(), freedom);
         let agreement = |surface: &Surface| select::agreement(surface, gathered.samples());
         let mut best: Option<Choice> = None;
         let at = centroid(&gathered.points)?;
@@ -69,7 +56,7 @@ impl Around<'_> {
             let blend = Walls::new(walls.map(|wall| (&wall.surface, wall.side)), at)
                 .and_then(|walls| walls.nearest(&gathered.points, LEAST * self.scene.edge));
             let Some(blend) = blend else { continue };
-            let choice = self.judge(blend, BLEND, gathered);
+            let choice = judge(blend, BLEND);
             let bound = best.as_ref().unwrap_or(&own).criterion;
             if choice.criterion < bound && agreement(&choice.surface) > agreement(surface) - TURNED
             {
@@ -77,14 +64,6 @@ impl Around<'_> {
             }
         }
         best.map(|best| (best, own))
-    }
-
-    fn judge(&self, surface: Surface, freedom: f64, gathered: &Gathered) -> Choice {
-        let Scene { evidence, .. } = self.scene;
-        let misfit = select::misfit(&surface, &gathered.points, evidence.sigma);
-        let count = evidence.samples(gathered.total);
-        let criterion = count * misfit + 2.0 * freedom * count.ln();
-        Choice { surface, misfit, criterion }
     }
 
     /// Pairs of neighbours that a region may be between.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::assign::{Model, face_cost};
-use super::blend;
+use super::blend::Around;
 use super::related;
 use super::scene::{Gathered, Marks, Scene};
 use crate::mesh::NONE;
@@ -30,8 +30,22 @@ pub fn fit(scene: &Scene, models: &mut [Model], labels: &[u32]) {
         }
     });
     if scene.noisy() {
-        blend::find(scene, models, labels, &regions);
+        blend(scene, models, labels, &regions);
     }
+}
+
+/// Makes blends of the regions that are blends of their neighbours rather than what they are now.
+fn blend(scene: &Scene, models: &mut [Model], labels: &[u32], regions: &Regions) {
+    let walls = models.to_vec();
+    let around = Around { scene, models: &walls, labels, regions };
+    models.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (id, model)| {
+        if id < regions.len() {
+            let faces = regions.faces(id);
+            if let Some((blend, _)) = around.rather(id, &scene.samples(faces, SAMPLES, marks)) {
+                *model = Model::new(scene, blend.surface, faces);
+            }
+        }
+    });
 }
 
 /// Chooses the surface of one region anew.

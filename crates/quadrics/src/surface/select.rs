@@ -93,9 +93,21 @@ pub fn misfit(surface: &Surface, points: &[Point], sigma: f64) -> f64 {
 
 /// The criterion of a surface for `vertices` vertices of which `samples` are looked at.
 pub fn judge(surface: Surface, samples: Samples, vertices: usize, evidence: Evidence) -> Choice {
-    let misfit = misfit(&surface, samples.points, evidence.sigma);
+    let cost = cost(&surface);
+    judge_at(cost, surface, samples.points, vertices, evidence)
+}
+
+/// The same at a cost that is not that of its type.
+pub fn judge_at(
+    cost: f64,
+    surface: Surface,
+    points: &[Point],
+    vertices: usize,
+    evidence: Evidence,
+) -> Choice {
+    let misfit = misfit(&surface, points, evidence.sigma);
     let count = evidence.samples(vertices);
-    let criterion = count * misfit + 2.0 * cost(&surface) * count.ln();
+    let criterion = count * misfit + 2.0 * cost * count.ln();
     Choice { surface, misfit, criterion }
 }
 
