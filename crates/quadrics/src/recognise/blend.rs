@@ -1,37 +1,18 @@
 //! Regions that are blends of their neighbours: a fillet between known walls has its radius alone to fit, where
 //! noise would let it pass for a plane, a sphere or half of a cylinder.
 
-use std::collections::BTreeMap;
-
-use super::assign::Model;
+use super::around::Around;
 use super::related::TURNED;
-use super::scene::{Gathered, Scene};
-use crate::mesh::NONE;
-use crate::partition::Regions;
+use super::scene::Gathered;
 use crate::surface::blend::Walls;
 use crate::surface::select::{self, Choice};
 use crate::surface::{Surface, centroid};
 
-/// Neighbours that may be walls: those of the longest borders.
-const NEIGHBOURS: usize = 4;
 /// Least radius of a blend, in edges: the mesh shows no smaller one.
 const LEAST: f64 = 0.7;
 /// Degrees of freedom of a blend, and of the chamfer between two walls that it may be instead.
 const BLEND: f64 = 1.0;
 const CHAMFER: f64 = 2.0;
-
-/// Regions and what lies around them.
-#[derive(Clone, Copy)]
-pub struct Around<'a> {
-    /// Where they lie.
-    pub scene: &'a Scene<'a>,
-    /// Their surfaces.
-    pub models: &'a [Model],
-    /// Region of every face.
-    pub labels: &'a [u32],
-    /// Faces of every region.
-    pub regions: &'a Regions,
-}
 
 impl Around<'_> {
     /// The blend of two neighbours that a region is rather than its surface, and that surface, each with the
@@ -68,20 +49,8 @@ impl Around<'_> {
 
     /// Pairs of neighbours that a region may be between.
     fn walls(&self, id: usize) -> Vec<[u32; 2]> {
-        let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
-        let faces = self.regions.faces(id).iter();
-        let across = faces.flat_map(|&face| self.scene.adjacency.neighbours[face as usize]);
-        for other in across.filter(|&face| face != NONE).map(|face| self.labels[face as usize]) {
-            if other != id as u32 {
-                *borders.entry(other).or_default() += 1;
-            }
-        }
-        let mut longest: Vec<(u32, usize)> = borders.into_iter().collect();
-        longest.sort_by_key(|&(_, edges)| std::cmp::Reverse(edges));
-        longest.truncate(NEIGHBOURS);
-        let pairs = longest.iter().enumerate();
-        pairs
-            .flat_map(|(i, (one, _))| longest[i + 1..].iter().map(|(other, _)| [*one, *other]))
-            .collect()
+        let neighbours = self.neighbours(id);
+        let pairs = neighbours.iter().enumerate();
+        pairs.flat_map(|(i, one)| neighbours[i + 1..].iter().map(|other| [*one, *other])).collect()
     }
 }

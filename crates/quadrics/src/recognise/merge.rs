@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::assign::Model;
-use super::moves::{LABEL, borders, choose, judge, tidy};
+use super::moves::{LABEL, SAMPLES, best, borders, tidy};
+use super::related::priced;
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
 use crate::partition::Regions;
 use crate::surface::Surface;
-use crate::surface::select::{Choice, Evidence};
+use crate::surface::select::Evidence;
 
 /// Regions whose normals differ more across their border, on the mean, are not one surface. Under
 /// independent noise normals come filtered so that they differ less.
@@ -36,7 +37,15 @@ const WAVES: f64 = 1.0;
 /// A pair of adjacent regions and what merging them gains.
 struct Union {
     gain: f64,
-    choice: Choice,
+    surface: Surface,
+    side: Side,
+}
+
+/// What a region is worth as it is.
+#[derive(Clone, Copy)]
+struct Side {
+    criterion: f64,
+    vertices: usize,
 }
 
 /// Regions while they merge; a pair is judged once, and again when one of the two has changed.
@@ -44,7 +53,7 @@ struct Merger<'s, 'm> {
     scene: &'s Scene<'m>,
     evidence: Evidence,
     faces: Vec<Vec<u32>>,
-    criteria: Vec<f64>,
+    sides: Vec<Side>,
     unions: BTreeMap<(u32, u32), Option<Union>>,
 }
 
@@ -104,14 +113,16 @@ impl<'s, 'm> Merger<'s, 'm> {
     fn new(scene: &'s Scene<'m>, models: &[Model], labels: &[u32]) -> Self {
         let faces: Vec<Vec<u32>> = Regions::new(labels).iter().map(<[u32]>::to_vec).collect();
         let evidence = merging(scene.evidence);
-        let criteria = faces
+        let sides = faces
             .par_iter()
             .zip(models)
             .map_init(Marks::default, |marks, (faces, model)| {
-                judge(scene, &model.surface, faces, evidence, marks).criterion
+                let gathered = scene.samples(faces, SAMPLES, marks);
+                let choice = priced(scene, model.surface.clone(), &gathered, evidence);
+                Side { criterion: choice.criterion, vertices: gathered.total }
             })
             .collect();
-        Self { scene, evidence, faces, criteria, unions: BTreeMap::new() }
+        Self { scene, evidence, faces, sides, unions: BTreeMap::new() }
     }
 
     /// Fits one surface to both regions of every pair that is not known yet.
@@ -121,15 +132,21 @@ impl<'s, 'm> Merger<'s, 'm> {
         let judged: Vec<Option<Union>> = unknown
             .par_iter()
             .map_init(Marks::default, |marks, &(a, b)| {
-                let faces = self.joined(a, b);
-                let choice = choose(self.scene, &faces, self.evidence, marks)?;
-                let apart = self.criteria[a as usize] + self.criteria[b as usize];
-                let mut gain = apart - choice.criterion;
+                let gathered = self.scene.samples(&self.joined(a, b), SAMPLES, marks);
+                let choice = best(self.scene, &gathered, self.evidence)?;
+                let [one, other] = [a, b].map(|id| &self.sides[id as usize]);
+                let mut gain = one.criterion + other.criterion - choice.criterion;
+                if self.scene.noisy() {
+                    // Vertices on the border have counted on both sides.
+                    let shared = one.vertices + other.vertices - gathered.total;
+                    gain -= shared as f64 * choice.misfit.min(1.0);
+                }
                 let alike = |id: u32| models[id as usize].surface.is_like(&choice.surface);
                 if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {
                     gain = gain.max(0.0);
                 }
-                Some(Union { gain, choice })
+                let side = Side { criterion: choice.criterion, vertices: gathered.total };
+                Some(Union { gain, surface: choice.surface, side })
             })
             .collect();
         self.unions.extend(unknown.into_iter().zip(judged));
@@ -164,8 +181,8 @@ impl<'s, 'm> Merger<'s, 'm> {
             merged += 1;
             let Some(Some(union)) = self.unions.remove(&(a, b)) else { continue };
             let faces = self.joined(a, b);
-            models[a as usize] = Model::new(self.scene, union.choice.surface, &faces);
-            self.criteria[a as usize] = union.choice.criterion;
+            models[a as usize] = Model::new(self.scene, union.surface, &faces);
+            self.sides[a as usize] = union.side;
             self.faces[b as usize].iter().for_each(|&f| labels[f as usize] = a);
             self.faces[a as usize] = faces;
             self.faces[b as usize].clear();

@@ -1,5 +1,6 @@
 //! `preset="default"`: the surfaces of a part, whatever its noise, with nothing to tune.
 
+pub mod around;
 pub mod assign;
 pub mod blend;
 pub mod carry;
@@ -15,6 +16,7 @@ pub mod moves;
 mod open;
 pub mod patch;
 mod pool;
+mod profile;
 pub mod related;
 pub mod scene;
 mod seams;

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::around::Around;
 use super::assign::{Model, face_cost};
-use super::blend::Around;
 use super::related;
 use super::scene::{Gathered, Marks, Scene};
 use crate::mesh::NONE;
@@ -84,7 +84,7 @@ pub(super) fn choose(
 }
 
 /// The best surface, free or related.
-fn best(scene: &Scene, gathered: &Gathered, evidence: Evidence) -> Option<Choice> {
+pub(super) fn best(scene: &Scene, gathered: &Gathered, evidence: Evidence) -> Option<Choice> {
     let free = select::choose(gathered.samples(), gathered.total, evidence).into_iter().next()?;
     let (than, bound) = (&free.surface, free.criterion);
     let near = scene.shown.nearest(&gathered.points);

@@ -174,6 +174,19 @@ pub struct Gathered {
 }
 
 impl Gathered {
+    /// Divided into so many sets, which stand for themselves, by where the points are.
+    pub fn divided(&self, count: usize, part: impl Fn(Point) -> usize) -> Vec<Self> {
+        let mut sets: Vec<Self> = (0..count).map(|_| Self::default()).collect();
+        for (i, &point) in self.points.iter().enumerate() {
+            let set = &mut sets[part(point)];
+            set.points.push(point);
+            set.barycentres.push(self.barycentres[i]);
+            set.normals.push(self.normals[i]);
+            set.total += 1;
+        }
+        sets
+    }
+
     /// As the fits want them.
     pub fn samples(&self) -> crate::surface::Samples<'_> {
         crate::surface::Samples {

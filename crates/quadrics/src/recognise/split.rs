@@ -6,10 +6,12 @@
 
 use rayon::prelude::*;
 
+use super::around::Around;
 use super::assign::{Model, border_cost, face_cost};
 use super::cut::Cut;
 use super::merge::CHANGE;
 use super::moves::{choose, judge, tidy};
+use super::profile::Parts;
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
@@ -48,29 +50,29 @@ pub fn split(
     }
     context.step("split", 0.0)?;
     let regions = Regions::new(labels);
-    let halves: Vec<Option<Halves>> = models
+    let around = Around { scene, models, labels, regions: &regions };
+    let split: Vec<Option<Parts>> = models
         .par_iter()
         .enumerate()
         .map_init(Marks::default, |marks, (id, model)| {
-            Region { scene, labels, id: id as u32, faces: regions.faces(id), marks }.split(model)
+            let parts = around.parts(id, marks);
+            let faces = regions.faces(id);
+            let halves = Region { scene, labels, id: id as u32, faces, marks }.split(model);
+            parts.into_iter().chain(halves).max_by(|a, b| a.gain.total_cmp(&b.gain))
         })
         .collect();
-    for (id, halves) in halves.into_iter().enumerate() {
-        if let Some(Halves { part, pair: [rest, new], .. }) = halves {
-            part.iter().for_each(|&face| labels[face as usize] = models.len() as u32);
-            models[id] = rest;
-            models.push(new);
+    for (id, Parts { parts, .. }) in (0..).zip(split).filter_map(|(id, parts)| Some((id, parts?))) {
+        for (k, (faces, model)) in parts.into_iter().enumerate() {
+            let label = if k == 0 { id } else { models.len() };
+            faces.iter().for_each(|&face| labels[face as usize] = label as u32);
+            match models.get_mut(label) {
+                Some(known) => *known = model,
+                None => models.push(model),
+            }
         }
     }
     tidy(models, labels);
     Ok(())
-}
-
-/// A region in two: the faces that go, the surfaces of the rest and of them, what that saves.
-struct Halves {
-    part: Vec<u32>,
-    pair: [Model; 2],
-    gain: f64,
 }
 
 /// A region that may be split.
@@ -84,7 +86,7 @@ struct Region<'s, 'm> {
 }
 
 impl Region<'_, '_> {
-    fn split(&mut self, model: &Model) -> Option<Halves> {
+    fn split(&mut self, model: &Model) -> Option<Parts> {
         if matches!(model.surface, Surface::FreeForm) {
             return None;
         }
@@ -143,8 +145,9 @@ impl Region<'_, '_> {
     }
 
     /// Divides the faces between two surfaces and fits both anew, in turn.
-    fn divide(&mut self, mut pair: [Model; 2], mut part: Vec<u32>, whole: f64) -> Option<Halves> {
+    fn divide(&mut self, mut pair: [Model; 2], mut part: Vec<u32>, whole: f64) -> Option<Parts> {
         let mut gain = f64::NEG_INFINITY;
+        let mut rest = Vec::new();
         for _ in 0..REGROUP {
             let grown = self.cut(&pair, &part);
             if grown.len() < FEWEST || grown.len() + FEWEST > self.faces.len() {
@@ -156,8 +159,7 @@ impl Region<'_, '_> {
             part.iter().for_each(|&face| {
                 self.marks.mark(face);
             });
-            let rest: Vec<u32> =
-                self.faces.iter().copied().filter(|&f| !self.marks.has(f)).collect();
+            rest = self.faces.iter().copied().filter(|&f| !self.marks.has(f)).collect::<Vec<_>>();
             let (one, first) = self.fit(&rest)?;
             let (other, second) = self.fit(&part)?;
             gain = whole - first - second;
@@ -166,7 +168,8 @@ impl Region<'_, '_> {
                 break;
             }
         }
-        Some(Halves { part, pair, gain })
+        let [one, other] = pair;
+        Some(Parts { parts: vec![(rest, one), (part, other)], gain })
     }
 
     /// The best surface for some faces, and its criterion.

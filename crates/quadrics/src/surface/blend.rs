@@ -3,18 +3,11 @@
 //! Two surfaces that extend in one direction, or turn about one axis, are two curves in a plane, and the
 //! ball between them is a circle that touches both. All that is left free is its radius.
 
-use nalgebra::Vector2;
+use super::Surface;
+use super::curve::{Curve, Flat, meets};
+use super::sweep::Sweep;
+use crate::math::Point;
 
-use super::{Cylinder, Surface, Torus, axis};
-use crate::math::{Point, Unit, frame};
-
-type Flat = Vector2<f64>;
-
-/// Directions are one below this sine, and axes nearer than this, in sizes: walls are fits themselves.
-const ONE: f64 = 0.03;
-const NEAR: f64 = 0.004;
-/// Planes that meet at a lesser sine have no direction in common that noise would not turn.
-const CROSS: f64 = 0.1;
 /// Least angle, in radians, by which a blend turns: surfaces that meet so smoothly need none.
 const TURN: f64 = 0.3;
 /// The largest radius that is tried, in sizes; each is larger by the factor than the one before, and the
@@ -22,24 +15,6 @@ const TURN: f64 = 0.3;
 const LARGEST: f64 = 0.5;
 const LARGER: f64 = 1.5;
 const REFINED: usize = 5;
-
-/// How curves in a plane become surfaces.
-#[derive(Debug, Clone, Copy)]
-enum Sweep {
-    /// In a direction; with the axes of the plane across it.
-    Along { direction: Unit, u: Unit, v: Unit },
-    /// About an axis; the plane has the distance from it and the height along it.
-    About { point: Point, axis: Unit },
-}
-
-/// A curve whose distances grow out of the part.
-#[derive(Debug, Clone, Copy)]
-enum Curve {
-    /// `normal · p = offset`.
-    Line { normal: Flat, offset: f64 },
-    /// `outward` is +1 where the part is inside of the circle, else -1.
-    Circle { center: Flat, radius: f64, outward: f64 },
-}
 
 /// Two surfaces between which a ball may roll.
 #[derive(Debug, Clone)]
@@ -59,7 +34,7 @@ impl Walls {
     /// Two surfaces near a point, each with +1 where its normals point out of the part, else -1. `None`
     /// where a rolling ball leaves neither a cylinder nor a torus.
     pub fn new(walls: [(&Surface, f64); 2], at: Point) -> Option<Self> {
-        let sweep = Sweep::of(walls.map(|(surface, _)| surface))?;
+        let sweep = Sweep::between(walls.map(|(surface, _)| surface))?;
         let [one, other] = walls.map(|(surface, side)| sweep.curve(surface, side, at));
         Some(Self { sweep, curves: [one?, other?] })
     }
@@ -87,7 +62,8 @@ impl Walls {
             best = beside.chain([best]).min_by(better)?;
         }
         let ball = self.ball(best.1, depth, middle)?;
-        self.sweep.surface(&ball)
+        let Ball { center, radius, .. } = ball;
+        self.sweep.surface(&Curve::Circle { center, radius, outward: 1.0 })
     }
 
     /// The ball at a depth of so many radii that touches both walls and spans the way past a point.
@@ -112,184 +88,11 @@ impl Ball {
     }
 }
 
-impl Sweep {
-    fn of(walls: [&Surface; 2]) -> Option<Self> {
-        match walls {
-            [Surface::Plane(a), Surface::Plane(b)] => {
-                Some(Self::along(Unit::try_new(a.normal.cross(&b.normal), CROSS)?))
-            }
-            [Surface::Cylinder(a), Surface::Cylinder(b)]
-                if (a.point - b.point).cross(&a.axis).norm() > NEAR =>
-            {
-                Some(Self::along(a.axis))
-            }
-            [Surface::Plane(plane), Surface::Cylinder(bore)]
-            | [Surface::Cylinder(bore), Surface::Plane(plane)]
-                if plane.normal.dot(&bore.axis).abs() < ONE =>
-            {
-                Some(Self::along(bore.axis))
-            }
-            [Surface::Plane(plane), Surface::Sphere(dome)]
-            | [Surface::Sphere(dome), Surface::Plane(plane)] => {
-                Some(Self::About { point: dome.center, axis: plane.normal })
-            }
-            _ => {
-                let (point, axis) = walls.into_iter().find_map(axis)?;
-                Some(Self::About { point, axis })
-            }
-        }
-    }
-
-    fn along(direction: Unit) -> Self {
-        let (u, v) = frame(&direction);
-        Self::Along { direction, u, v }
-    }
-
-    fn flat(&self, p: Point) -> Flat {
-        match self {
-            Self::Along { u, v, .. } => Flat::new(u.dot(&p.coords), v.dot(&p.coords)),
-            Self::About { point, axis } => {
-                let way = p - point;
-                Flat::new(way.cross(axis).norm(), axis.dot(&way))
-            }
-        }
-    }
-
-    /// The curve of a surface; at a point where it does not quite extend or turn like that.
-    fn curve(&self, surface: &Surface, side: f64, at: Point) -> Option<Curve> {
-        let line = |normal: Flat, offset: f64| Curve::Line {
-            normal: normal * side,
-            offset: offset * side,
-        };
-        let circle = |center, radius| Curve::Circle { center, radius, outward: side };
-        match self {
-            Self::Along { direction, u, v } => match surface {
-                Surface::Plane(s) if s.normal.dot(direction).abs() < ONE => {
-                    let normal = Flat::new(u.dot(&s.normal), v.dot(&s.normal)).normalize();
-                    let foot = at - s.normal.into_inner() * (s.normal.dot(&at.coords) - s.offset);
-                    Some(line(normal, normal.dot(&self.flat(foot))))
-                }
-                Surface::Cylinder(s) if is_parallel(&s.axis, direction) => {
-                    let foot = s.point + s.axis.into_inner() * s.axis.dot(&(at - s.point));
-                    Some(circle(self.flat(foot), s.radius))
-                }
-                _ => None,
-            },
-            Self::About { point, axis } => {
-                let height = |p: Point| axis.dot(&(p - point));
-                let is_on = |p: Point| (p - point).cross(axis).norm() < NEAR;
-                match surface {
-                    Surface::Plane(s) if is_parallel(&s.normal, axis) => {
-                        let sign = s.normal.dot(axis).signum();
-                        Some(line(Flat::new(0.0, sign), s.offset - s.normal.dot(&point.coords)))
-                    }
-                    Surface::Cylinder(s) if is_parallel(&s.axis, axis) && is_on(s.point) => {
-                        Some(line(Flat::x(), s.radius))
-                    }
-                    Surface::Cone(s) if is_parallel(&s.axis, axis) && is_on(s.apex) => {
-                        let (sin, cos) = s.half_angle.sin_cos();
-                        let normal = Flat::new(cos, -sin * s.axis.dot(axis).signum());
-                        Some(line(normal, normal.y * height(s.apex)))
-                    }
-                    Surface::Torus(s) if is_parallel(&s.axis, axis) && is_on(s.center) => {
-                        Some(circle(Flat::new(s.major_radius, height(s.center)), s.minor_radius))
-                    }
-                    Surface::Sphere(s) if is_on(s.center) => {
-                        Some(circle(Flat::new(0.0, height(s.center)), s.radius))
-                    }
-                    _ => None,
-                }
-            }
-        }
-    }
-
-    fn surface(&self, ball: &Ball) -> Option<Surface> {
-        let Ball { center, radius, .. } = *ball;
-        match *self {
-            Self::Along { direction, u, v } => {
-                let point = Point::from(u.into_inner() * center.x + v.into_inner() * center.y);
-                Some(Surface::Cylinder(Cylinder { point, axis: direction, radius }))
-            }
-            Self::About { point, axis } => (center.x > radius).then(|| {
-                let center_point = point + axis.into_inner() * center.y;
-                let (major_radius, minor_radius) = (center.x, radius);
-                Surface::Torus(Torus { center: center_point, axis, major_radius, minor_radius })
-            }),
-        }
-    }
-}
-
-fn is_parallel(one: &Unit, other: &Unit) -> bool {
-    one.cross(other).norm() < ONE
-}
-
-impl Curve {
-    fn distance(&self, p: Flat) -> f64 {
-        match self {
-            Self::Line { normal, offset } => normal.dot(&p) - offset,
-            Self::Circle { center, radius, outward } => outward * ((p - center).norm() - radius),
-        }
-    }
-
-    /// All points at this distance; none where the circle would have vanished.
-    fn offset(&self, by: f64) -> Option<Self> {
-        match *self {
-            Self::Line { normal, offset } => Some(Self::Line { normal, offset: offset + by }),
-            Self::Circle { center, radius, outward } => {
-                let radius = radius + outward * by;
-                (radius > 0.0).then_some(Self::Circle { center, radius, outward })
-            }
-        }
-    }
-
-    fn foot(&self, p: Flat) -> Flat {
-        match self {
-            Self::Line { normal, .. } => p - normal * self.distance(p),
-            Self::Circle { center, radius, .. } => center + (p - center).normalize() * *radius,
-        }
-    }
-}
-
-/// Where two curves meet.
-fn meets(one: &Curve, other: &Curve) -> [Option<Flat>; 2] {
-    match (*one, *other) {
-        (Curve::Line { normal: n, offset: a }, Curve::Line { normal: m, offset: b }) => {
-            let turn = n.perp(&m);
-            let at = Flat::new(a * m.y - b * n.y, b * n.x - a * m.x) / turn;
-            [(turn.abs() > CROSS).then_some(at), None]
-        }
-        (Curve::Line { normal, offset }, Curve::Circle { center, radius, .. })
-        | (Curve::Circle { center, radius, .. }, Curve::Line { normal, offset }) => {
-            beside(center, normal, offset - normal.dot(&center), radius)
-        }
-        (
-            Curve::Circle { center, radius, .. },
-            Curve::Circle { center: second, radius: other, .. },
-        ) => {
-            let way = second - center;
-            let far = way.norm();
-            let along = (far * far + radius * radius - other * other) / (2.0 * far);
-            beside(center, way / far, along, radius)
-        }
-    }
-}
-
-/// The points of a circle at a distance from its centre along a direction; none where there are none.
-fn beside(center: Flat, direction: Flat, along: f64, radius: f64) -> [Option<Flat>; 2] {
-    let square = radius * radius - along * along;
-    if square.is_nan() || square < 0.0 {
-        return [None; 2];
-    }
-    let aside = Flat::new(-direction.y, direction.x) * square.sqrt();
-    let middle = center + direction * along;
-    [Some(middle + aside), Some(middle - aside)]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::Vector;
-    use crate::surface::{Cone, Plane, Sphere};
+    use crate::math::{Unit, Vector};
+    use crate::surface::{Cone, Cylinder, Plane, Sphere, Torus};
 
     const RADIUS: f64 = 0.05;
 

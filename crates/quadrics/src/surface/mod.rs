@@ -3,10 +3,12 @@
 //! Distances are signed: positive on the side that [`Shape::normal`] points to, which is away from
 //! the centre, the axis or the spine. Lengths are in the unit of the points, angles in radians.
 
+mod arc;
 mod axis;
 pub mod blend;
 mod condensed;
 mod cone;
+mod curve;
 mod cylinder;
 pub mod family;
 pub mod general;
@@ -17,6 +19,7 @@ pub mod moments;
 pub mod planarity;
 mod plane;
 pub mod polynomial;
+pub mod profile;
 pub mod quadrature;
 mod quadric;
 mod refine;
@@ -26,6 +29,7 @@ pub mod round;
 pub mod select;
 mod sphere;
 pub mod start;
+pub mod sweep;
 pub mod taubin;
 mod torus;
 mod uncertainty;
