@@ -34,7 +34,7 @@ pub struct Profile {
 }
 
 /// Places where a profile may be cut, at most.
-const PLACES: usize = 48;
+const PLACES: usize = 24;
 /// Points between two of them, and in a part, at least.
 const BETWEEN: usize = 4;
 const FEWEST: usize = 6;
