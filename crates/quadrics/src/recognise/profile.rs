@@ -23,7 +23,9 @@ const RADIUS_EDGES: f64 = 2.0;
 const LENGTH_EDGES: f64 = 1.5;
 /// What a profile may cost more than the region as it is, and its parts be worth fitting: directions and axes that the
 /// scene shows are free, and no profile knows that.
-const WORSE: f64 = 80.0;
+const WORSE: f64 = 20.0;
+/// What the simplest surface costs.
+pub(super) const CHEAPEST: f64 = 3.0;
 /// What a cut must save beside the price of the surfaces: there are many profiles to choose from.
 const CUT: f64 = 2.0 * CHANGE;
 /// Fewest faces of a part.
@@ -40,9 +42,12 @@ pub struct Parts {
 impl Around<'_> {
     /// The parts that a region is cut into where its profile breaks, as far as that pays.
     pub fn parts(&self, id: usize, marks: &mut Marks) -> Option<Parts> {
+        let surface = &self.models[id].surface;
+        if matches!(surface, Surface::FreeForm) {
+            return None;
+        }
         let mut gathered = self.scene.samples(self.regions.faces(id), SAMPLES, marks);
         gathered.total = gathered.points.len();
-        let surface = &self.models[id].surface;
         let profiles = self.profiles(id, &gathered);
         if profiles.is_empty() {
             return None;
@@ -70,8 +75,7 @@ impl Around<'_> {
             length: LENGTH_EDGES * edge,
         };
         let now = select::judge(surface.clone(), gathered.samples(), gathered.total, evidence);
-        // The simplest surface.
-        let most = gathered.total as f64 * now.misfit + 6.0 * log + WORSE;
+        let most = gathered.total as f64 * now.misfit + 2.0 * CHEAPEST * log + WORSE;
         let profile = |sweep: Sweep| {
             let flat: Vec<_> = gathered.points.iter().map(|p| sweep.flat(*p)).collect();
             Some((sweep, Profile::of(&flat, &limits)?))

@@ -1,8 +1,9 @@
-//! Splitting: a region that two surfaces explain better becomes two, the reverse of merging.
+//! Splitting: a region that several surfaces explain better becomes several, the reverse of merging.
 //!
 //! Under noise a growing region may take in its neighbour, a torus over a cylinder and the chamfer
 //! beside it, as long as nothing but noise seems to be left; no seed is drawn there again. So every
-//! region is asked in a few places whether another surface explains the faces there better.
+//! region is asked whether its profile breaks, and in a few places whether another surface explains
+//! the faces there better.
 
 use rayon::prelude::*;
 
@@ -11,7 +12,7 @@ use super::assign::{Model, border_cost, face_cost};
 use super::cut::Cut;
 use super::merge::CHANGE;
 use super::moves::{choose, judge, tidy};
-use super::profile::Parts;
+use super::profile::{CHEAPEST, Parts};
 use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
@@ -30,8 +31,6 @@ const TRIED: usize = 2;
 const REGROUP: usize = 3;
 /// Fewest faces of either part.
 const FEWEST: usize = 12;
-/// What the simplest surface costs: a neighbourhood that another one cannot save so much is no start.
-const CHEAPEST: f64 = 3.0;
 
 /// Splits regions under independent noise while the criterion of merging falls, each once.
 ///
@@ -109,7 +108,7 @@ impl Region<'_, '_> {
                 let ball = self.ball(seed, size);
                 let vertices = ball.len() as f64 / 2.0;
                 let misfit = self.judge(surface, &ball).misfit;
-                // Noise alone leaves 1, give or take.
+                // Noise alone leaves 1, give or take; what cannot save the simplest surface is no start.
                 let noise = 1.0 - (2.0 / vertices).sqrt();
                 if (misfit - noise) * vertices < CHEAPEST {
                     continue;
