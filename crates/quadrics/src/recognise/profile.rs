@@ -74,8 +74,8 @@ impl Around<'_> {
             radius: (RADIUS_SIGMAS * evidence.sigma).max(RADIUS_EDGES * edge),
             length: LENGTH_EDGES * edge,
         };
-        let now = select::judge(surface.clone(), gathered.samples(), gathered.total, evidence);
-        let most = gathered.total as f64 * now.misfit + 2.0 * CHEAPEST * log + WORSE;
+        let misfit = select::misfit(surface, &gathered.points, evidence.sigma);
+        let most = gathered.total as f64 * misfit + 2.0 * CHEAPEST * log + WORSE;
         let profile = |sweep: Sweep| {
             let flat: Vec<_> = gathered.points.iter().map(|p| sweep.flat(*p)).collect();
             Some((sweep, Profile::of(&flat, &limits)?))

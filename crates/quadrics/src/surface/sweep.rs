@@ -50,9 +50,9 @@ impl Sweep {
             }
             for other in &by[i + 1..] {
                 if let (Surface::Plane(a), Surface::Plane(b)) = (one, other)
-                    && let Some(edge) = Unit::try_new(a.normal.cross(&b.normal), CROSS)
+                    && let Some(edge) = Self::edge(a, b)
                 {
-                    add(Self::along(edge));
+                    add(edge);
                 }
             }
         }
@@ -74,9 +74,7 @@ impl Sweep {
     /// The one between two surfaces on which a ball may roll along both.
     pub fn between(walls: [&Surface; 2]) -> Option<Self> {
         match walls {
-            [Surface::Plane(a), Surface::Plane(b)] => {
-                Some(Self::along(Unit::try_new(a.normal.cross(&b.normal), CROSS)?))
-            }
+            [Surface::Plane(a), Surface::Plane(b)] => Self::edge(a, b),
             [Surface::Cylinder(a), Surface::Cylinder(b)]
                 if (a.point - b.point).cross(&a.axis).norm() > NEAR =>
             {
@@ -97,6 +95,11 @@ impl Sweep {
                 Some(Self::About { point, axis })
             }
         }
+    }
+
+    /// Along the edge of two planes.
+    fn edge(a: &Plane, b: &Plane) -> Option<Self> {
+        Unit::try_new(a.normal.cross(&b.normal), CROSS).map(Self::along)
     }
 
     fn along(direction: Unit) -> Self {
