@@ -39,9 +39,6 @@ const CORRELATED: f64 = 0.3;
 /// Independent samples over vertices on scans; the choice of types hardly depends on it.
 const INDEPENDENT: f64 = 0.05;
 
-/// Below it a mesh is clean, and a quadric that fits is the surface; above, quadrics bridge creases.
-const QUIET: f64 = 20.0 * ROUNDING;
-
 /// What a probe saw: deviation, its correlation across edges, deviation of normals, faces.
 struct Row {
     sigma: f64,
@@ -85,7 +82,7 @@ pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
             // that curvature was mistaken for it.
             scene.evidence = Evidence { sigma: sigma.min(local), independent: 1.0, ..known };
         }
-        scene.evidence.general = scene.evidence.sigma < QUIET;
+        scene.evidence.general = scene.evidence.is_quiet();
         if (1.0 / SETTLED..SETTLED).contains(&(scene.evidence.sigma / before)) {
             break;
         }
@@ -179,8 +176,8 @@ pub fn coarsen(context: &mut Context, scene: &mut Scene) -> Result<()> {
     loop {
         let enough = scene.correlated() && explained(context, scene)?;
         let sigma = (COARSER * scene.evidence.sigma).min(COARSEST);
-        scene.evidence =
-            Evidence { sigma, independent: INDEPENDENT, general: sigma < QUIET, ..scene.evidence };
+        scene.evidence = Evidence { sigma, independent: INDEPENDENT, ..scene.evidence };
+        scene.evidence.general = scene.evidence.is_quiet();
         if enough || sigma >= COARSEST {
             return Ok(());
         }

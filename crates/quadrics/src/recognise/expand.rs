@@ -9,6 +9,7 @@ use super::pool::Pool;
 use super::scene::{Marks, Scene};
 use crate::mesh::NONE;
 use crate::partition::Regions;
+use crate::surface::Surface;
 
 /// A face is worth asking when the new surface is at most so much worse than its own.
 const SLACK: f64 = 4.0;
@@ -34,9 +35,7 @@ pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
     for batch in ids.chunks(at_once) {
         let work_out = |&id: &u32, labels: &[u32], current: &[f64]| {
             let region = regions.faces(id as usize);
-            pool.with(|work| {
-                Move::new(scene, &models[id as usize], id, region, labels, current, work)
-            })
+            pool.with(|work| Move::new(scene, models, id, region, labels, current, work))
         };
         let now: &[u32] = labels;
         let guesses: Vec<Move> =
@@ -78,13 +77,17 @@ struct Work {
 impl Move {
     fn new(
         scene: &Scene,
-        model: &Model,
+        models: &[Model],
         label: u32,
         region: &[u32],
         labels: &[u32],
         current: &[f64],
         work: &mut Work,
     ) -> Self {
+        let model = &models[label as usize];
+        // Nothing tells the faces of one free-form patch from those of another: they stay.
+        let free = |id: u32| matches!(models[id as usize].surface, Surface::FreeForm);
+        let stays = |face: u32| free(label) && free(labels[face as usize]);
         // Faces of others, reached from the region, that might come over.
         work.seen.clear(labels.len());
         work.place.resize(labels.len(), NONE);
@@ -102,7 +105,7 @@ impl Move {
                 seen.push(face);
                 work.place[face as usize] = NONE;
                 let cost = face_cost(scene, model, face as usize);
-                if cost < current[face as usize] + SLACK {
+                if cost < current[face as usize] + SLACK && !stays(face) {
                     work.place[face as usize] = active.len() as u32;
                     active.push((face, cost));
                 }

@@ -125,7 +125,9 @@ fn optimise(
         if unite {
             context.timed("merge", |context| {
                 merge::merge(context, scene, models, labels)?;
-                free_form::unite(scene, models, labels);
+                if scene.evidence.general {
+                    free_form::unite(scene, models, labels);
+                }
                 Ok(())
             })?;
             // The last round leaves what the cut has made straight.

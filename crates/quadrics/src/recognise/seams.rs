@@ -2,8 +2,14 @@
 
 use super::assign::Model;
 use super::scene::Scene;
-use crate::math::Point;
+use crate::math::{Point, Vector};
 use crate::mesh::NONE;
+use crate::surface::Surface;
+
+/// Whether a region may be a piece of a free-form patch.
+pub fn is_curved(model: &Model) -> bool {
+    !matches!(model.surface, Surface::Plane(_) | Surface::FreeForm)
+}
 
 /// Where two regions touch.
 pub struct Seam {
@@ -12,6 +18,10 @@ pub struct Seam {
     pub length: f64,
     /// Mean squared difference of the two surfaces' normals along it.
     turn: f64,
+    /// Mean difference of their normal curvatures across it, per size.
+    pub jump: f64,
+    /// Mean of the larger of these curvatures, per size.
+    pub bend: f64,
 }
 
 impl Seam {
@@ -21,35 +31,74 @@ impl Seam {
     }
 }
 
+/// What an edge between two regions adds to their seam.
+struct Edge {
+    one: u32,
+    other: u32,
+    length: f64,
+    turn: f64,
+    curvatures: [f64; 2],
+}
+
 /// All seams, by the regions that they part.
 pub fn seams(scene: &Scene, models: &[Model], labels: &[u32]) -> Vec<Seam> {
-    let mut edges: Vec<(u32, u32, f64, f64)> = Vec::new();
-    for (face, &label) in labels.iter().enumerate() {
+    let mut edges: Vec<Edge> = Vec::new();
+    for (face, &one) in labels.iter().enumerate() {
         for (edge, &next) in scene.adjacency.neighbours[face].iter().enumerate() {
-            if next == NONE || labels[next as usize] <= label {
+            if next == NONE || labels[next as usize] <= one {
                 continue;
             }
             let other = labels[next as usize];
             let [a, b] = [edge, (edge + 1) % 3]
                 .map(|k| scene.mesh.positions[scene.mesh.faces[face][k] as usize]);
             let middle = nalgebra::center(&a, &b);
-            let turn = turn(&models[label as usize], &models[other as usize], middle);
-            edges.push((label, other, (a - b).norm(), turn));
+            let pair = [one, other].map(|id| &models[id as usize]);
+            let across = scene.normals[face].cross(&(b - a));
+            let curvatures = pair.map(|model| curvature(model, middle, &across));
+            let turn = turn(pair[0], pair[1], middle);
+            edges.push(Edge { one, other, length: (a - b).norm(), turn, curvatures });
         }
     }
-    edges.sort_by_key(|edge| (edge.0, edge.1));
-    let seam = |same: &[(u32, u32, f64, f64)]| {
-        let length: f64 = same.iter().map(|e| e.2).sum();
-        let turn: f64 = same.iter().map(|e| e.2 * e.3).sum();
-        Seam { one: same[0].0, other: same[0].1, length, turn: turn / length }
-    };
-    edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).map(seam).collect()
+    edges.sort_by_key(|edge| (edge.one, edge.other));
+    edges.chunk_by(|a, b| (a.one, a.other) == (b.one, b.other)).map(Seam::of).collect()
+}
+
+impl Seam {
+    fn of(edges: &[Edge]) -> Self {
+        let length: f64 = edges.iter().map(|e| e.length).sum();
+        let mean =
+            |of: fn(&Edge) -> f64| edges.iter().map(|e| e.length * of(e)).sum::<f64>() / length;
+        Self {
+            one: edges[0].one,
+            other: edges[0].other,
+            length,
+            turn: mean(|e| e.turn),
+            jump: mean(|e| (e.curvatures[0] - e.curvatures[1]).abs()),
+            bend: mean(|e| e.curvatures[0].abs().max(e.curvatures[1].abs())),
+        }
+    }
 }
 
 /// Squared difference of two surfaces' normals at a point; a free-form one has none to differ.
 fn turn(one: &Model, other: &Model, at: Point) -> f64 {
     match (one.surface.normal(at), other.surface.normal(at)) {
         (Some(a), Some(b)) => 2.0 - 2.0 * one.side * other.side * a.dot(&b),
+        _ => 0.0,
+    }
+}
+
+/// Half the distance over which a normal is seen to turn, in sizes.
+const STEP: f64 = 1e-4;
+
+/// Curvature of a normal section, positive where the surface bends away from its faces' normals; that
+/// of a free-form surface is not known, zero.
+fn curvature(model: &Model, at: Point, along: &Vector) -> f64 {
+    let step = along.normalize() * STEP;
+    match (model.surface.normal(at + step), model.surface.normal(at - step)) {
+        (Some(ahead), Some(behind)) => {
+            let turn = ahead.into_inner() - behind.into_inner();
+            model.side * turn.dot(&step) / (2.0 * STEP * STEP)
+        }
         _ => 0.0,
     }
 }

@@ -32,6 +32,7 @@ pub mod start;
 pub mod sweep;
 pub mod taubin;
 mod torus;
+mod tube;
 mod uncertainty;
 mod waves;
 

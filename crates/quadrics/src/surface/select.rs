@@ -6,6 +6,7 @@
 
 use super::family::Family;
 use super::start::{self, Samples};
+use super::tube::tori;
 use super::{Shape, Surface, general, refine_within};
 use crate::math::Point;
 
@@ -22,7 +23,16 @@ pub struct Evidence {
     pub general: bool,
 }
 
+/// Below so many sizes a mesh is clean, and a quadric that fits is the surface; above, quadrics bridge
+/// creases.
+const QUIET: f64 = 2e-4;
+
 impl Evidence {
+    /// Whether the noise is none to speak of.
+    pub fn is_quiet(&self) -> bool {
+        self.sigma < QUIET
+    }
+
     /// Independent samples that so many vertices stand for, at least two.
     pub fn samples(&self, vertices: usize) -> f64 {
         (vertices as f64 * self.independent).max(2.0)
@@ -149,11 +159,13 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     {
         best = consider(&mut choices, sphere);
     }
-    if best > bound(8.0)
-        && samples.points.len() >= 10
-        && let Some(torus) = best_of(axes.iter().filter_map(|a| start::torus(samples, a)), samples)
-    {
-        best = consider(&mut choices, torus);
+    if best > bound(8.0) && samples.points.len() >= 10 {
+        let turned = axes.iter().filter_map(|axis| start::torus(samples, axis));
+        // Curvatures say nothing under noise.
+        let bent = evidence.is_quiet().then(|| tori(samples)).into_iter().flatten();
+        if let Some(torus) = best_of(turned.chain(bent), samples) {
+            best = consider(&mut choices, torus);
+        }
     }
     let simple = choices.first().map_or(CAP, |best| best.misfit);
     if evidence.general
