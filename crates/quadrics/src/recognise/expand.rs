@@ -87,7 +87,7 @@ impl Move {
         let model = &models[label as usize];
         // Nothing tells the faces of one free-form patch from those of another: they stay.
         let free = |id: u32| matches!(models[id as usize].surface, Surface::FreeForm);
-        let stays = |face: u32| free(label) && free(labels[face as usize]);
+        let alike = |face: u32| free(label) && free(labels[face as usize]);
         // Faces of others, reached from the region, that might come over.
         work.seen.clear(labels.len());
         work.place.resize(labels.len(), NONE);
@@ -105,7 +105,7 @@ impl Move {
                 seen.push(face);
                 work.place[face as usize] = NONE;
                 let cost = face_cost(scene, model, face as usize);
-                if cost < current[face as usize] + SLACK && !stays(face) {
+                if cost < current[face as usize] + SLACK && !alike(face) {
                     work.place[face as usize] = active.len() as u32;
                     active.push((face, cost));
                 }

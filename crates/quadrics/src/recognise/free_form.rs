@@ -14,9 +14,10 @@ use crate::surface::select;
 const COEFFICIENTS: f64 = 16.0;
 /// Surfaces whose normals differ by less along their border, on the mean, continue each other.
 const TANGENT_DEG: f64 = 6.0;
-/// And whose curvatures across it differ by a smaller share of the larger one,
+/// Their curvatures across it differ by less than this share of the larger one,
 const JUMP: f64 = 0.5;
-/// or are flatter, per size.
+/// or by less than this, per size: shares say nothing of what is flat (1 is the same; with 2.5 pipe bends are
+/// kept apart by the next limit alone).
 const FLAT: f64 = 1.5;
 /// Curvatures of two pieces of a patch differ by less than so many sigmas over the area of the smaller:
 /// what a quadric of length `h` leaves of a third derivative `t` is `t h³ / 192`, and the two differ by

@@ -25,6 +25,20 @@ pub struct Seam {
 }
 
 impl Seam {
+    fn of(edges: &[Edge]) -> Self {
+        let length: f64 = edges.iter().map(|e| e.length).sum();
+        let mean =
+            |of: fn(&Edge) -> f64| edges.iter().map(|e| e.length * of(e)).sum::<f64>() / length;
+        Self {
+            one: edges[0].one,
+            other: edges[0].other,
+            length,
+            turn: mean(|e| e.turn),
+            jump: mean(|e| (e.curvatures[0] - e.curvatures[1]).abs()),
+            bend: mean(|e| e.curvatures[0].abs().max(e.curvatures[1].abs())),
+        }
+    }
+
     /// Whether one surface continues the other: their normals differ by less, on the mean.
     pub fn is_smooth(&self, degrees: f64) -> bool {
         self.turn < 2.0 - 2.0 * degrees.to_radians().cos()
@@ -63,22 +77,6 @@ pub fn seams(scene: &Scene, models: &[Model], labels: &[u32]) -> Vec<Seam> {
     edges.chunk_by(|a, b| (a.one, a.other) == (b.one, b.other)).map(Seam::of).collect()
 }
 
-impl Seam {
-    fn of(edges: &[Edge]) -> Self {
-        let length: f64 = edges.iter().map(|e| e.length).sum();
-        let mean =
-            |of: fn(&Edge) -> f64| edges.iter().map(|e| e.length * of(e)).sum::<f64>() / length;
-        Self {
-            one: edges[0].one,
-            other: edges[0].other,
-            length,
-            turn: mean(|e| e.turn),
-            jump: mean(|e| (e.curvatures[0] - e.curvatures[1]).abs()),
-            bend: mean(|e| e.curvatures[0].abs().max(e.curvatures[1].abs())),
-        }
-    }
-}
-
 /// Squared difference of two surfaces' normals at a point; a free-form one has none to differ.
 fn turn(one: &Model, other: &Model, at: Point) -> f64 {
     match (one.surface.normal(at), other.surface.normal(at)) {
@@ -90,10 +88,11 @@ fn turn(one: &Model, other: &Model, at: Point) -> f64 {
 /// Half the distance over which a normal is seen to turn, in sizes.
 const STEP: f64 = 1e-4;
 
-/// Curvature of a normal section, positive where the surface bends away from its faces' normals; that
-/// of a free-form surface is not known, zero.
+/// Curvature of a normal section, positive where the surface bends away from its faces' normals; zero
+/// where it is not known, as on a free-form surface.
 fn curvature(model: &Model, at: Point, along: &Vector) -> f64 {
-    let step = along.normalize() * STEP;
+    // An edge without length, or a face without area, leads nowhere.
+    let Some(step) = along.try_normalize(0.0).map(|along| along * STEP) else { return 0.0 };
     match (model.surface.normal(at + step), model.surface.normal(at - step)) {
         (Some(ahead), Some(behind)) => {
             let turn = ahead.into_inner() - behind.into_inner();

@@ -57,7 +57,7 @@ pub const CAP: f64 = 9.0;
 const TRIAL_ITERATIONS: usize = 4;
 const FINAL_ITERATIONS: usize = 25;
 /// Surfaces with a radius above this many sizes are planes (points are in the unit cube).
-const LARGEST_RADIUS: f64 = 5.0;
+pub(super) const LARGEST_RADIUS: f64 = 5.0;
 /// Half angles outside this range, in degrees, are cylinders or planes.
 const HALF_ANGLES: (f64, f64) = (0.3, 88.0);
 /// Least mean cosine between the normals of the samples and of the surface on a clean mesh: many
@@ -161,7 +161,7 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     }
     if best > bound(8.0) && samples.points.len() >= 10 {
         let turned = axes.iter().filter_map(|axis| start::torus(samples, axis));
-        // Curvatures say nothing under noise.
+        // Under noise curvatures say little, and a probe that may bend mistakes its neighbours for noise.
         let bent = evidence.is_quiet().then(|| tori(samples)).into_iter().flatten();
         if let Some(torus) = best_of(turned.chain(bent), samples) {
             best = consider(&mut choices, torus);

@@ -6,16 +6,13 @@
 //! every `θ` that gives one torus.
 
 use super::refine::centroid;
+use super::select::LARGEST_RADIUS;
 use super::start::{Samples, curvatures};
 use super::{Surface, Torus};
 use crate::math::{Unit, Vector};
 
 /// Where on the tube a patch may lie, in radians (five turns are not enough).
 const TURNS: [f64; 7] = [0.0, 0.5, -0.5, 1.0, -1.0, 1.35, -1.35];
-/// Curvatures below it are those of a plane, per unit of the points.
-const LEAST_CURVATURE: f64 = 1e-3;
-/// Largest ring, in units of the points.
-const LARGEST: f64 = 10.0;
 
 /// The tori that touch the samples and bend as they do, their tubes the way they bend most.
 pub fn tori(samples: Samples) -> impl Iterator<Item = Surface> {
@@ -39,11 +36,11 @@ fn touch(samples: Samples) -> Option<Touch> {
     let normal = Unit::try_new(samples.normals.iter().sum::<Vector>(), 1e-9)?;
     let along = Unit::try_new(along - normal.into_inner() * normal.dot(&along), 1e-9)?;
     let at = centroid(samples.points)?.coords;
-    let bends = tube.abs().min(ring.abs()) > LEAST_CURVATURE;
-    bends.then_some(Touch { at, normal: *normal, along: *along, tube, ring })
+    Some(Touch { at, normal: *normal, along: *along, tube, ring })
 }
 
 impl Touch {
+    /// None where it would have no ring, or a larger one than any surface of a part.
     fn torus(&self, turn: f64) -> Option<Surface> {
         let outward = self.normal * turn.cos() + self.along * turn.sin();
         // Signed, like the curvatures.
@@ -55,7 +52,9 @@ impl Touch {
             major_radius: major.abs(),
             minor_radius: minor.abs(),
         };
-        (torus.minor_radius..LARGEST).contains(&torus.major_radius).then_some(Surface::Torus(torus))
+        (torus.minor_radius..LARGEST_RADIUS)
+            .contains(&torus.major_radius)
+            .then_some(Surface::Torus(torus))
     }
 }
 
