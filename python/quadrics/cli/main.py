@@ -83,6 +83,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return DONE
     if options.command is None:
         top.error("a command is missing")
+    # NumPy's own threads would spin beside ours, a tenth of a short run, and have nothing to do.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         COMMANDS[options.command].run(options)
         sys.stdout.flush()

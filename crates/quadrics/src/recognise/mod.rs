@@ -108,6 +108,7 @@ fn optimise(
     unite: bool,
     rounds: usize,
 ) -> Result<()> {
+    let mut tried = split::Tried::default();
     for round in 0..rounds {
         context.step("optimise", round as f64 / rounds as f64)?;
         context.timed("assign", |_| {
@@ -132,7 +133,9 @@ fn optimise(
             })?;
             // The last round leaves what the cut has made straight.
             if round + 1 < rounds {
-                context.timed("split", |context| split::split(context, scene, models, labels))?;
+                context.timed("split", |context| {
+                    split::split(context, scene, models, labels, &mut tried)
+                })?;
             }
         }
         energies.push(energy(scene, models, labels));

@@ -29,10 +29,13 @@ const BALLS: [usize; 3] = [40, 120, 360];
 const TRIED: usize = 2;
 /// Rounds of dividing the region and fitting both surfaces.
 const REGROUP: usize = 3;
+/// A region that shares so many of its faces with one that was tried is that one.
+const SAME: f64 = 0.95;
 /// Fewest faces of either part.
 const FEWEST: usize = 12;
 
-/// Splits regions under independent noise while the criterion of merging falls, each once.
+/// Splits regions under independent noise while the criterion of merging falls, each once, and those
+/// that were `tried` before only where they have changed.
 ///
 /// Without noise regions take in nothing that is not theirs, and on scans the waviness would part them.
 ///
@@ -43,6 +46,7 @@ pub fn split(
     scene: &Scene,
     models: &mut Vec<Model>,
     labels: &mut [u32],
+    tried: &mut Tried,
 ) -> Result<()> {
     if !scene.noisy() {
         return Ok(());
@@ -54,12 +58,16 @@ pub fn split(
         .par_iter()
         .enumerate()
         .map_init(Marks::default, |marks, (id, model)| {
-            let parts = around.parts(id, marks);
             let faces = regions.faces(id);
+            if tried.has(faces) {
+                return None;
+            }
+            let parts = around.parts(id, marks);
             let halves = Region { scene, labels, id: id as u32, faces, marks }.split(model);
             parts.into_iter().chain(halves).max_by(|a, b| a.gain.total_cmp(&b.gain))
         })
         .collect();
+    *tried = Tried::new(labels, &split);
     for (id, Parts { parts, .. }) in (0..).zip(split).filter_map(|(id, parts)| Some((id, parts?))) {
         for (k, (faces, model)) in parts.into_iter().enumerate() {
             let label = if k == 0 { id } else { models.len() };
@@ -72,6 +80,33 @@ pub fn split(
     }
     tidy(models, labels);
     Ok(())
+}
+
+/// The regions that were tried last and stayed whole.
+#[derive(Default)]
+pub struct Tried {
+    /// The region that a face was in.
+    regions: Vec<u32>,
+    /// Faces of every region; none of one that was split.
+    sizes: Vec<usize>,
+}
+
+impl Tried {
+    fn new(labels: &[u32], split: &[Option<Parts>]) -> Self {
+        let mut sizes = vec![0; split.len()];
+        for &label in labels.iter().filter(|&&label| split[label as usize].is_none()) {
+            sizes[label as usize] += 1;
+        }
+        Self { regions: labels.to_vec(), sizes }
+    }
+
+    /// Whether a region of these faces was tried.
+    fn has(&self, faces: &[u32]) -> bool {
+        let Some(&then) = self.regions.get(faces[faces.len() / 2] as usize) else { return false };
+        let same = faces.iter().filter(|&&face| self.regions[face as usize] == then).count();
+        let size = self.sizes[then as usize];
+        size > 0 && same as f64 >= SAME * faces.len().max(size) as f64
+    }
 }
 
 /// A region that may be split.

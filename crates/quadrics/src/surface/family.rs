@@ -6,9 +6,11 @@
 
 use nalgebra::{Const, DimMin, Matrix3, Rotation3, SVector, UnitQuaternion};
 
-use super::refine::{Local, centroid, minimise, taubin_distance};
+use super::refine::{centroid, minimise, taubin_distance};
+use super::squares::{Local, one_by_one};
 use super::start::{self, Samples};
 use super::{Quadric, Surface, revolved};
+use crate::math::lanes::{Lanes, Packet};
 use crate::math::{Point, Similarity, Unit, Vector, frame};
 
 /// What is held when a quadric is fitted.
@@ -295,18 +297,20 @@ struct Held<const N: usize> {
 
 impl<const N: usize> Local<N> for Held<N> {
     #[inline]
-    fn residual(&self, point: Point) -> (f64, SVector<f64, N>) {
-        let p = self.frame.inverse_transform_point(&point).coords;
-        let (distance, normal, row) = taubin_distance(&self.coefficients, p);
-        let torque = p.cross(&normal);
-        let slope = |unknown: Unknown| match unknown {
-            C(i) => row[i],
-            Round => ROUND.map(|i| row[i]).iter().sum(),
-            Turn(axis) => -torque[axis],
-            Shift(axis) => -normal[axis],
-        };
-        let scale = self.frame.scaling();
-        (distance * scale, SVector::from_fn(|i, _| slope(self.unknowns[i]) * scale))
+    fn residual(&self, points: Packet) -> (Lanes, [Lanes; N]) {
+        one_by_one(points, |point| {
+            let p = self.frame.inverse_transform_point(&point).coords;
+            let (distance, normal, row) = taubin_distance(&self.coefficients, p);
+            let torque = p.cross(&normal);
+            let slope = |unknown: Unknown| match unknown {
+                C(i) => row[i],
+                Round => ROUND.map(|i| row[i]).iter().sum(),
+                Turn(axis) => -torque[axis],
+                Shift(axis) => -normal[axis],
+            };
+            let scale = self.frame.scaling();
+            (distance * scale, SVector::from_fn(|i, _| slope(self.unknowns[i]) * scale))
+        })
     }
 
     fn moved(&self, step: &SVector<f64, N>) -> Option<Self> {

@@ -7,9 +7,9 @@
 
 use nalgebra::{SVector, UnitQuaternion};
 
-use super::refine::Local;
-use super::torus::from_spine;
+use super::squares::Local;
 use super::{Cone, Cylinder, Plane, Shape, Sphere, Surface, Torus};
+use crate::math::lanes::{Lanes, Packet};
 use crate::math::{Point, Unit, Vector, frame};
 
 /// Surfaces of larger radius, in the unit of the points, are given up: they are planes.
@@ -44,12 +44,12 @@ impl LocalPlane {
 }
 
 impl Local<3> for LocalPlane {
-    #[inline]
-    fn residual(&self, point: Point) -> (f64, SVector<f64, 3>) {
-        let x = point - self.foot;
-        let torque = x.cross(&self.normal);
-        let row = [-1.0, -self.tangents.0.dot(&torque), -self.tangents.1.dot(&torque)];
-        (self.normal.dot(&x), row.into())
+    #[inline(always)]
+    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 3]) {
+        // In the frame of the normal and the tangents, where the normal's torque is plain.
+        let offset = point.from(&self.foot);
+        let (x, y) = (offset.dot(&self.tangents.0), offset.dot(&self.tangents.1));
+        (offset.dot(&self.normal), [Lanes::splat(-1.0), -y, x])
     }
 
     fn moved(&self, step: &SVector<f64, 3>) -> Option<Self> {
@@ -93,19 +93,19 @@ impl LocalSphere {
 }
 
 impl Local<4> for LocalSphere {
-    #[inline]
-    fn residual(&self, point: Point) -> (f64, SVector<f64, 4>) {
-        let y = point - self.center;
-        let length = y.norm();
-        let n = y / length.max(f64::MIN_POSITIVE);
-        let torque = (point - self.foot).cross(&n);
-        let row = [
-            -n.dot(&self.normal),
-            -self.tangents.0.dot(&torque),
-            -self.tangents.1.dot(&torque),
-            self.radius * self.radius * (1.0 - n.dot(&self.normal)),
-        ];
-        (length - self.radius, row.into())
+    #[inline(always)]
+    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 4]) {
+        // In the frame of the tangents and the normal, about the centre.
+        let offset = point.from(&self.center);
+        let (x, y, z) =
+            (offset.dot(&self.tangents.0), offset.dot(&self.tangents.1), offset.dot(&self.normal));
+        let length = (x * x + y * y + z * z).sqrt();
+        let scale = 1.0 / length.at_least(f64::MIN_POSITIVE);
+        let lean = z * scale;
+        // The foot is a radius above the centre: its torque is that of the offset, less its own.
+        let (across, along) = (x * scale * self.radius, y * scale * self.radius);
+        let row = [-lean, -along, across, self.radius * self.radius * (1.0 - lean)];
+        (length - self.radius, row)
     }
 
     fn moved(&self, step: &SVector<f64, 4>) -> Option<Self> {
@@ -150,15 +150,16 @@ impl LocalCylinder {
 }
 
 impl Local<5> for LocalCylinder {
-    #[inline]
-    fn residual(&self, point: Point) -> (f64, SVector<f64, 5>) {
+    #[inline(always)]
+    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 5]) {
         // In the frame of normal, across and axis.
-        let offset = point - self.foot;
+        let offset = point.from(&self.foot);
         let (x, y, z) =
-            (self.normal.dot(&offset), self.across.dot(&offset), self.axis.dot(&offset));
-        let length = ((x + self.radius).powi(2) + y * y).sqrt();
-        let scale = 1.0 / length.max(f64::MIN_POSITIVE);
-        let n = [(x + self.radius) * scale, y * scale];
+            (offset.dot(&self.normal), offset.dot(&self.across), offset.dot(&self.axis));
+        let from_axis = x + self.radius;
+        let length = (from_axis * from_axis + y * y).sqrt();
+        let scale = 1.0 / length.at_least(f64::MIN_POSITIVE);
+        let n = [from_axis * scale, y * scale];
         let row = [
             -n[0],
             y * n[0] - x * n[1],
@@ -166,7 +167,7 @@ impl Local<5> for LocalCylinder {
             z * n[1],
             self.radius * self.radius * (1.0 - n[0]),
         ];
-        (length - self.radius, row.into())
+        (length - self.radius, row)
     }
 
     fn moved(&self, step: &SVector<f64, 5>) -> Option<Self> {
@@ -245,20 +246,19 @@ impl LocalCone {
 }
 
 impl Local<6> for LocalCone {
-    #[inline]
-    fn residual(&self, point: Point) -> (f64, SVector<f64, 6>) {
+    #[inline(always)]
+    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 6]) {
         // In the frame of outward, across and axis.
-        let offset = point - self.center;
+        let offset = point.from(&self.center);
         let (x, y, h) =
-            (self.outward.dot(&offset), self.across.dot(&offset), self.axis.dot(&offset));
+            (offset.dot(&self.outward), offset.dot(&self.across), offset.dot(&self.axis));
         let (sine, cosine, radius) = (self.sine, self.cosine, 1.0 / self.curvature);
-        let r = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
+        let r = (x * x + y * y).sqrt().at_least(f64::MIN_POSITIVE);
         let distance = r * cosine + sine * h - radius;
         let scale = cosine / r;
-        let n = [x * scale, y * scale, sine];
-        let from_foot = Vector::new(x - cosine * radius, y, h - sine * radius);
-        let torque = from_foot.cross(&Vector::from(n));
-        let lift = 1.0 - (cosine * n[0] + sine * sine);
+        let n = Packet { x: x * scale, y: y * scale, z: Lanes::splat(sine) };
+        let torque = Packet { x: x - cosine * radius, y, z: h - sine * radius }.cross(n);
+        let lift = 1.0 - (cosine * n.x + sine * sine);
         let row = [
             lift - 1.0,
             sine * torque.x - cosine * torque.z,
@@ -268,7 +268,7 @@ impl Local<6> for LocalCone {
             // The axis turns about the centre, towards the normal: the half angle changes alone.
             cosine * h - sine * r + (sine - h * scale) * x,
         ];
-        (distance, row.into())
+        (distance, row)
     }
 
     fn moved(&self, step: &SVector<f64, 6>) -> Option<Self> {
@@ -297,23 +297,24 @@ impl LocalTorus {
 }
 
 impl Local<7> for LocalTorus {
-    #[inline]
-    fn residual(&self, point: Point) -> (f64, SVector<f64, 7>) {
+    #[inline(always)]
+    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 7]) {
         // In the frame of the tangents and the axis.
         let torus = &self.torus;
-        let offset = point - torus.center;
+        let offset = point.from(&torus.center);
         let (u, v) = (&self.tangents.0, &self.tangents.1);
-        let (x, y, h) = (u.dot(&offset), v.dot(&offset), torus.axis.dot(&offset));
-        let r = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
+        let (x, y, h) = (offset.dot(u), offset.dot(v), offset.dot(&torus.axis));
+        let r = (x * x + y * y).sqrt().at_least(f64::MIN_POSITIVE);
         let across = r - torus.major_radius;
-        let tube = from_spine(across, h);
-        let outward = across / tube.max(f64::MIN_POSITIVE);
+        let tube = (across * across + h * h).sqrt();
+        let inverse = 1.0 / tube.at_least(f64::MIN_POSITIVE);
+        let outward = across * inverse;
         let scale = outward / r;
-        let n = [x * scale, y * scale, h / tube.max(f64::MIN_POSITIVE)];
-        let normal = u.into_inner() * n[0] + v.into_inner() * n[1] + torus.axis.into_inner() * n[2];
+        let n = [x * scale, y * scale, h * inverse];
+        let along = |axis: usize| u[axis] * n[0] + v[axis] * n[1] + torus.axis[axis] * n[2];
         let turn = [h * n[1] - y * n[2], x * n[2] - h * n[0]];
-        let row = [-normal.x, -normal.y, -normal.z, turn[0], turn[1], -outward, -1.0];
-        (tube - torus.minor_radius, row.into())
+        let row = [-along(0), -along(1), -along(2), turn[0], turn[1], -outward, Lanes::splat(-1.0)];
+        (tube - torus.minor_radius, row)
     }
 
     fn moved(&self, step: &SVector<f64, 7>) -> Option<Self> {

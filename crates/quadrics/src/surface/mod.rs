@@ -28,6 +28,7 @@ mod revolved;
 pub mod round;
 pub mod select;
 mod sphere;
+mod squares;
 pub mod start;
 pub mod sweep;
 pub mod taubin;

@@ -9,7 +9,9 @@ use nalgebra::{Const, DimMin, SMatrix, SVector, UnitQuaternion};
 
 use super::family::Family;
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
+use super::squares::{Local, normal_equations, one_by_one, sum_of_squares};
 use super::{Quadric, Shape, Surface};
+use crate::math::lanes::{Lanes, Packet};
 use crate::math::{Point, Similarity, Vector};
 
 /// A fitted surface and how well it fits.
@@ -21,18 +23,6 @@ pub struct Fit {
     pub cost: f64,
 }
 
-/// Surfaces as the solver sees them: residuals, derivatives by `N` local unknowns, and steps.
-pub(super) trait Local<const N: usize>: Clone {
-    /// Signed distance of a point, and its derivatives.
-    fn residual(&self, point: Point) -> (f64, SVector<f64, N>);
-    /// The surface after a step; `None` where it would stop being one.
-    fn moved(&self, step: &SVector<f64, N>) -> Option<Self>;
-    /// A direction in which a step changes nothing, if there is one.
-    fn gauge(&self) -> Option<SVector<f64, N>> {
-        None
-    }
-}
-
 /// Most iterations of a fit; 8 are the rule.
 const ITERATIONS: usize = 30;
 /// A step that lowers the cost by less than this fraction is the last one.
@@ -40,29 +30,6 @@ const PROGRESS: f64 = 1e-9;
 /// Marquardt's damping at the start, and what it is multiplied or divided by.
 const DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 8.0;
-
-/// The normal equations of a model at some points: `JᵀJ` and `Jᵀr`.
-fn normal_equations<const N: usize, M: Local<N>>(
-    model: &M,
-    points: &[Point],
-    weights: &[f64],
-) -> (SMatrix<f64, N, N>, SVector<f64, N>) {
-    let mut matrix = SMatrix::<f64, N, N>::zeros();
-    let mut gradient = SVector::<f64, N>::zeros();
-    for (i, &point) in points.iter().enumerate() {
-        let weight = weights.get(i).copied().unwrap_or(1.0);
-        let (residual, row) = model.residual(point);
-        for b in 0..N {
-            let scaled = weight * row[b];
-            gradient[b] += scaled * residual;
-            for a in b..N {
-                matrix[(a, b)] += scaled * row[a];
-            }
-        }
-    }
-    matrix.fill_upper_triangle_with_lower_triangle();
-    (matrix, gradient)
-}
 
 /// Covariance of the local unknowns for residuals of unit variance: `(JᵀJ)⁻¹`.
 ///
@@ -93,11 +60,6 @@ where
 /// Least squared pivot of scaled normal equations that is more than rounding.
 const FREE: f64 = 1e-13;
 
-fn cost_of<const N: usize, M: Local<N>>(model: &M, points: &[Point], weights: &[f64]) -> f64 {
-    let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
-    points.iter().enumerate().map(|(i, &p)| weight(i) * model.residual(p).0.powi(2)).sum()
-}
-
 /// Levenberg-Marquardt. Weights default to 1 where there are none.
 pub(super) fn minimise<const N: usize, M: Local<N>>(
     mut model: M,
@@ -109,7 +71,7 @@ where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let mut damping = DAMPING;
-    let mut cost = cost_of(&model, points, weights);
+    let mut cost = sum_of_squares(&model, points, weights);
     // Made where a step needs them: the last model takes none.
     let mut equations = None;
     for _ in 0..iterations {
@@ -121,7 +83,8 @@ where
             damped[(i, i)] += damping * matrix[(i, i)] + floor;
         }
         let candidate = damped.cholesky().and_then(|factor| model.moved(&-factor.solve(&gradient)));
-        let trial = candidate.map(|candidate| (cost_of(&candidate, points, weights), candidate));
+        let trial =
+            candidate.map(|candidate| (sum_of_squares(&candidate, points, weights), candidate));
         match trial {
             Some((lower, candidate)) if lower <= cost => {
                 let settled = cost - lower <= PROGRESS * cost;
@@ -253,10 +216,12 @@ pub(super) fn taubin_distance(c: &SVector<f64, 10>, p: Vector) -> (f64, Vector, 
 
 impl Local<10> for LocalQuadric {
     #[inline]
-    fn residual(&self, point: Point) -> (f64, SVector<f64, 10>) {
-        let p = (point - self.centre) / self.scale;
-        let (distance, _, row) = taubin_distance(&self.coefficients, p);
-        (distance * self.scale, row * self.scale)
+    fn residual(&self, points: Packet) -> (Lanes, [Lanes; 10]) {
+        one_by_one(points, |point| {
+            let p = (point - self.centre) / self.scale;
+            let (distance, _, row) = taubin_distance(&self.coefficients, p);
+            (distance * self.scale, row * self.scale)
+        })
     }
 
     fn moved(&self, step: &SVector<f64, 10>) -> Option<Self> {

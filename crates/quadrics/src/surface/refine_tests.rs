@@ -6,6 +6,7 @@ use super::start::{self, Samples};
 use super::*;
 use crate::context::Context;
 use crate::math::Vector;
+use crate::math::lanes::Packet;
 
 /// Points of a patch of each surface, exactly on it, with normals.
 fn patch(surface: &Surface) -> (Vec<Point>, Vec<Vector>) {
@@ -73,23 +74,47 @@ fn exact_points_give_the_exact_surface() {
 }
 
 #[test]
+fn a_sum_over_packets_is_the_sum_over_points() {
+    use super::local::LocalCone;
+    use super::squares::{Local, normal_equations, sum_of_squares};
+    let cone = Cone { apex: Point::new(0.8, 0.4, -0.6), axis: tilted(), half_angle: 0.4 };
+    let model = LocalCone::new(&cone, Point::new(1.0, 0.5, 0.3)).unwrap();
+    let points: Vec<Point> = (0..7).map(|i| Point::new(0.9, 0.1 * f64::from(i), 0.3)).collect();
+    let weights = [1.0, 2.0, 0.5, 0.0, 1.0, 3.0, 0.25];
+    for weights in [&weights[..], &[]] {
+        let (matrix, slopes) = normal_equations(&model, &points, weights);
+        let (mut squares, mut gradient, mut corner) = (0.0, 0.0, 0.0);
+        for (i, &point) in points.iter().enumerate() {
+            let weight = weights.get(i).copied().unwrap_or(1.0);
+            let (residual, row) = model.residual(Packet::new(&[point]));
+            squares += weight * residual.0[0].powi(2);
+            gradient += weight * residual.0[0] * row[4].0[0];
+            corner += weight * row[4].0[0] * row[1].0[0];
+        }
+        let same = |a: f64, b: f64| assert!((a - b).abs() < 1e-12 * a.abs(), "{a} {b}");
+        same(squares, sum_of_squares(&model, &points, weights));
+        same(gradient, slopes[4]);
+        same(corner, matrix[(4, 1)]);
+        same(corner, matrix[(1, 4)]);
+    }
+}
+
+#[test]
 fn the_derivatives_agree_with_differences() {
     use super::local::*;
-    use super::refine::Local;
+    use super::squares::Local;
     fn check<const N: usize, M: Local<N>>(model: &M, points: &[Point]) {
         for &point in points {
-            let (_, row) = model.residual(point);
+            let at = Packet::new(&[point]);
+            let (_, row) = model.residual(at);
             for i in 0..N {
                 let mut step = nalgebra::SVector::<f64, N>::zeros();
                 step[i] = 1e-6;
-                let ahead = model.moved(&step).unwrap().residual(point).0;
-                let behind = model.moved(&-step).unwrap().residual(point).0;
-                let rate = (ahead - behind) / 2e-6;
-                assert!(
-                    (rate - row[i]).abs() < 1e-4 * (1.0 + rate.abs()),
-                    "{i}: {rate} {}",
-                    row[i]
-                );
+                let ahead = model.moved(&step).unwrap().residual(at).0;
+                let behind = model.moved(&-step).unwrap().residual(at).0;
+                let rate = (ahead.0[0] - behind.0[0]) / 2e-6;
+                let row = row[i].0[0];
+                assert!((rate - row).abs() < 1e-4 * (1.0 + rate.abs()), "{i}: {rate} {row}");
             }
         }
     }
@@ -100,7 +125,9 @@ fn the_derivatives_agree_with_differences() {
     let sphere = Sphere { center: Point::new(0.5, 0.5, 0.3), radius: 0.5 };
     let center = Point::new(0.5, 0.2, 0.2);
     let torus = Torus { center, axis, major_radius: 0.5, minor_radius: 0.15 };
+    let plane = Plane::through(near, axis);
     let points = |s: &Surface| patch(s).0;
+    check(&LocalPlane::new(&plane, near), &points(&Surface::Plane(plane)));
     check(&LocalCylinder::new(&cylinder, near).unwrap(), &points(&Surface::Cylinder(cylinder)));
     check(&LocalCone::new(&cone, near).unwrap(), &points(&Surface::Cone(cone)));
     check(&LocalSphere::new(&sphere, near).unwrap(), &points(&Surface::Sphere(sphere)));

@@ -53,6 +53,6 @@ impl Shape for Torus {
 
 /// Distance from the spine, across and along the axis. `hypot` would guard against an overflow that
 /// lengths do not reach, for more than all the rest costs.
-pub(super) fn from_spine(across: f64, along: f64) -> f64 {
+fn from_spine(across: f64, along: f64) -> f64 {
     (across * across + along * along).sqrt()
 }

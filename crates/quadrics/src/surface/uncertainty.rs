@@ -7,7 +7,8 @@ use nalgebra::{Const, DMatrix, DVector, DimMin, SMatrix, SVector};
 
 use super::kind::kind;
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
-use super::refine::{Local, LocalQuadric, covariance};
+use super::refine::{LocalQuadric, covariance};
+use super::squares::Local;
 use super::{Surface, centroid};
 use crate::math::{Point, Similarity, Vector};
 
