@@ -25,8 +25,9 @@ pub struct Fit {
 
 /// Most iterations of a fit; 8 are the rule.
 const ITERATIONS: usize = 30;
-/// A step that lowers the cost by less than this fraction is the last one.
-const PROGRESS: f64 = 1e-9;
+/// A step that changes the cost by less than this fraction is the last one; the parameters are then within
+/// a hundredth of what they scatter by.
+const PROGRESS: f64 = 1e-6;
 /// Marquardt's damping at the start, and what it is multiplied or divided by.
 const DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 8.0;
@@ -85,14 +86,12 @@ where
         let candidate = damped.cholesky().and_then(|factor| model.moved(&-factor.solve(&gradient)));
         let trial =
             candidate.map(|candidate| (sum_of_squares(&candidate, points, weights), candidate));
+        // What neither falls nor rises by more than rounding has arrived: damping would not help.
+        let settled = trial.as_ref().is_some_and(|(now, _)| (cost - now).abs() <= PROGRESS * cost);
         match trial {
             Some((lower, candidate)) if lower <= cost => {
-                let settled = cost - lower <= PROGRESS * cost;
                 (model, cost, equations) = (candidate, lower, None);
                 damping = (damping / DAMPING_FACTOR).max(1e-12);
-                if settled {
-                    break;
-                }
             }
             _ => {
                 damping *= DAMPING_FACTOR;
@@ -100,6 +99,9 @@ where
                     break;
                 }
             }
+        }
+        if settled {
+            break;
         }
     }
     (model, cost)
@@ -120,7 +122,7 @@ pub fn refine_within(
     weights: &[f64],
     iterations: usize,
 ) -> Option<Fit> {
-    let foot = centroid(points)?;
+    let foot = foothold(surface, points)?;
     let (surface, cost) = match surface {
         Surface::Plane(s) => {
             let (m, cost) = minimise(LocalPlane::new(s, foot), points, weights, iterations);
@@ -147,6 +149,24 @@ pub fn refine_within(
     };
     cost.is_finite().then_some(Fit { surface, cost })
 }
+
+/// Where a fit holds on to a surface: above the middle of the points, or, where that lies on an axis or
+/// at a centre (after a full turn), at one of them. There normals are rounding, and a cone whose
+/// normal is not at right angles to its generators comes out wrong by as much.
+pub(super) fn foothold(surface: &Surface, points: &[Point]) -> Option<Point> {
+    let middle = centroid(points)?;
+    let radius = match surface {
+        Surface::Sphere(s) => s.radius,
+        Surface::Cylinder(s) => s.radius,
+        Surface::Cone(s) => s.axis.dot(&(middle - s.apex)) * s.half_angle.sin(),
+        _ => return Some(middle),
+    };
+    let inside = surface.distance(middle)? < -DEEP * radius;
+    Some(if inside { points[points.len() / 2] } else { middle })
+}
+
+/// Share of the radius below the surface from which on a point lies on the axis.
+const DEEP: f64 = 0.99;
 
 /// The mean of the points; `None` without any.
 pub fn centroid(points: &[Point]) -> Option<Point> {

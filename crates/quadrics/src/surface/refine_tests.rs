@@ -1,5 +1,7 @@
 //! A surface is recovered from points drawn from it.
 
+use std::f64::consts::TAU;
+
 use rand::RngExt;
 
 use super::start::{self, Samples};
@@ -71,6 +73,25 @@ fn exact_points_give_the_exact_surface() {
             assert!((one.unwrap().abs() - other.unwrap().abs()).abs() < 1e-7, "{truth:?}");
         }
     }
+}
+
+/// The middle of a full turn lies on the axis, where no normal leads to the surface.
+#[test]
+fn a_full_turn_is_fitted_to_the_last_digits() {
+    let axis = tilted();
+    let cone = Cone { apex: Point::new(0.8, 0.4, -0.6), axis, half_angle: 0.1 };
+    let (u, v) = crate::math::frame(&axis);
+    let at = |i: u32| {
+        let (height, turn) = (1.0 + 0.1 * f64::from(i / 16), f64::from(i % 16) * TAU / 16.0);
+        let radial = u.into_inner() * turn.cos() + v.into_inner() * turn.sin();
+        cone.apex + (axis.into_inner() + radial * cone.half_angle.tan()) * height
+    };
+    let points: Vec<Point> = (0..80).map(at).collect();
+    let start = Cone { half_angle: 0.101, ..cone.clone() };
+    let fit = refine(&Surface::Cone(start), &points, &[]).unwrap();
+    let Surface::Cone(found) = fit.surface else { panic!("{fit:?}") };
+    assert!((found.half_angle - cone.half_angle).abs() < 1e-12, "{found:?}");
+    assert!((found.apex - cone.apex).norm() < 1e-11, "{found:?}");
 }
 
 #[test]

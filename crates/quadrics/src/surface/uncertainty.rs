@@ -5,11 +5,11 @@
 
 use nalgebra::{Const, DMatrix, DVector, DimMin, SMatrix, SVector};
 
+use super::Surface;
 use super::kind::kind;
 use super::local::{LocalCone, LocalCylinder, LocalPlane, LocalSphere, LocalTorus};
-use super::refine::{LocalQuadric, covariance};
+use super::refine::{LocalQuadric, covariance, foothold};
 use super::squares::Local;
-use super::{Surface, centroid};
 use crate::math::{Point, Similarity, Vector};
 
 /// Step of the differences: angles in radians, lengths in sizes, curvatures in themselves.
@@ -37,7 +37,7 @@ fn of(
     sigma: f64,
     out: &Similarity,
 ) -> Option<Vec<(&'static str, f64)>> {
-    let near = centroid(points)?;
+    let near = foothold(surface, points)?;
     let spread = Spread { points, sigma, out };
     match surface {
         Surface::Plane(s) => spread.named(LocalPlane::new(s, near), LocalPlane::surface, [STEP; 3]),
