@@ -26,8 +26,8 @@ pub struct Fit {
 /// Most iterations of a fit; 8 are the rule.
 const ITERATIONS: usize = 30;
 /// A step that changes the cost by less than this fraction is the last one; the parameters are then within
-/// a hundredth of what they scatter by.
-const PROGRESS: f64 = 1e-6;
+/// a thousandth of what they scatter by.
+const PROGRESS: f64 = 1e-8;
 /// Marquardt's damping at the start, and what it is multiplied or divided by.
 const DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 8.0;
