@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from quadrics import _core
 from quadrics.errors import OutputError
 
 if TYPE_CHECKING:
+    from quadrics.picture import Seen
     from quadrics.result import Result
 
 FILES = ("labels.npy", "segmentation.json", "segmentation.ply", "segmentation.png")
@@ -41,8 +42,13 @@ def check(folder: Path, *, overwrite: bool) -> None:
         raise OutputError(f"{folder}: holds a result already; add --overwrite, or choose another")
 
 
-def save(result: Result, folder: Path, *, overwrite: bool) -> Path:
-    """Write the result into a new folder beside `folder`, then rename it."""
+def save(
+    result: Result, folder: Path, *, overwrite: bool, seen: Future[Seen] | None = None
+) -> Path:
+    """Write the result into a new folder beside `folder`, then rename it.
+
+    `seen` is what `picture.look` says of the result's mesh, where somebody has asked already.
+    """
     check(folder, overwrite=overwrite)
     folder = folder.absolute()
     partial = folder.with_name(f".{folder.name}.{os.getpid()}.partial")
@@ -50,7 +56,7 @@ def save(result: Result, folder: Path, *, overwrite: bool) -> Path:
         folder.parent.mkdir(parents=True, exist_ok=True)
         partial.mkdir()
         try:
-            _write(result, partial)
+            _write(result, partial, seen)
             _swap(partial, folder)
         finally:
             shutil.rmtree(partial, ignore_errors=True)
@@ -72,18 +78,21 @@ def _value(value: Any) -> str:
     return json.dumps(value, allow_nan=False)
 
 
-def _write(result: Result, folder: Path) -> None:
-    from quadrics.picture import write_picture
+def _write(result: Result, folder: Path, seen: Future[Seen] | None) -> None:
+    from quadrics.picture import look, write_picture
 
-    picture = folder / "segmentation.png"
+    def draw() -> None:
+        known = seen.result() if seen else look(result.mesh)
+        write_picture(folder / "segmentation.png", result, known)
+
     if result.options.threads == 1:
         _write_data(result, folder)
-        write_picture(picture, result)
+        draw()
         return
     # Most of either is done without the interpreter's lock.
     with ThreadPoolExecutor(1) as pool:
         data = pool.submit(_write_data, result, folder)
-        write_picture(picture, result)
+        draw()
         data.result()
 
 

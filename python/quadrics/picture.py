@@ -25,9 +25,8 @@ TOWARD_EYE = (0.55, -0.75, 0.5)
 GREY = (205, 207, 211)
 
 
-def write_picture(path: Path, result: Result) -> None:
+def write_picture(path: Path, result: Result, seen: Seen) -> None:
     """Draw both views and write the PNG; the same result gives the same bytes."""
-    seen = look(result.mesh)
     views = [_plain(seen), _regions(seen, result)]
     path.write_bytes(_core.encode_png(np.hstack(views)))
 

@@ -23,7 +23,7 @@ names: {", ".join(NAMES[:8])},
 
 Tables are printed, and an HTML page with pictures and plots is written. FOLDER holds real/NAME.ply
 (joint, fandisk, twelve, ...) and parts/NAME/ with mesh.ply, labels.npy, truth.json; what is not
-there is replaced by a generated part, and the page says so. Everything takes some 20 minutes.
+there is replaced by a generated part, and the page says so. Everything takes some ten minutes.
 """
 
 

@@ -6,6 +6,7 @@ import argparse
 import inspect
 import re
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
@@ -68,17 +69,20 @@ def run(arguments: argparse.Namespace) -> None:
 
     from quadrics import folder, mesh, segment
     from quadrics.cli.progress import shown
+    from quadrics.picture import look
 
     folder.check(arguments.output, overwrite=arguments.overwrite)
-    with shown(quiet=arguments.quiet) as progress:
+    with shown(quiet=arguments.quiet) as progress, ThreadPoolExecutor(1) as pool:
         progress("read", 0.0)
         source = mesh.read(arguments.mesh)
         labels = _labels(arguments.initial_labels)
+        # What is seen of the mesh does not hang on what is recognised in it.
+        seen = None if options.threads == 1 else pool.submit(look, source)
         result = segment(
             source, options, initial_labels=labels, units=arguments.units, progress=progress
         )
         progress("write", 0.0)
-        saved = result.save(arguments.output, overwrite=arguments.overwrite)
+        saved = folder.save(result, arguments.output, overwrite=arguments.overwrite, seen=seen)
     if arguments.json:
         sys.stdout.write(folder.to_json(result))
     elif not arguments.quiet:

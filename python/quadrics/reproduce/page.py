@@ -12,7 +12,8 @@ body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1320px; mar
   padding: 0 1.5em }
 h1 { font-size: 1.6em } h2 { font-size: 1.2em; margin-top: 2.2em; border-top: 1px solid #ddd;
   padding-top: 1em }
-table { border-collapse: collapse; margin: 1em 0; font-variant-numeric: tabular-nums }
+table { display: block; overflow-x: auto; border-collapse: collapse; margin: 1em 0;
+  font-variant-numeric: tabular-nums }
 th, td { padding: .25em .8em; text-align: right; border-bottom: 1px solid #eee }
 th { border-bottom: 1px solid #999; font-weight: 600 }
 th:first-child, td:first-child { text-align: left }
