@@ -46,11 +46,11 @@ fn found(part: &Part, labels: Option<&[u32]>, seed: u64) -> Vec<&'static str> {
 #[test]
 fn general_quadrics_come_out_whole_from_a_noisy_part() {
     let part = synth::part("quadrics", 20_000).unwrap();
-    for seed in 0..3 {
-        // One hyperboloid lies as near to a torus as the noise: which it is hangs on the seed.
-        let found = found(&part, None, seed);
-        assert!(found.len() >= CLASSES.len() - 1, "seed {seed}: {found:?}");
-    }
+    let seeds = [0, 1, 2].map(|seed| found(&part, None, seed));
+    // One hyperboloid lies as near to a torus as the noise: with one seed in three it may be that.
+    assert!(seeds.iter().all(|found| found.len() >= CLASSES.len() - 1), "{seeds:?}");
+    let often = |class| seeds.iter().filter(|found| found.contains(class)).count() >= 2;
+    assert!(CLASSES.iter().all(often), "{seeds:?}");
 }
 
 #[test]

@@ -83,8 +83,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return DONE
     if options.command is None:
         top.error("a command is missing")
-    # NumPy's own threads would spin beside ours, a tenth of a short run, and have nothing to do.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         COMMANDS[options.command].run(options)
         sys.stdout.flush()
@@ -105,6 +103,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def entry() -> NoReturn:
     """Run the program that `quadrics` and `python -m quadrics` are."""
+    # NumPy's own threads would spin beside ours, a tenth of a short run, and have nothing to do.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # A terminal that knows no ± must not end a run that took minutes.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(errors="replace")

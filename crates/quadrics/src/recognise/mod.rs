@@ -108,7 +108,7 @@ fn optimise(
     unite: bool,
     rounds: usize,
 ) -> Result<()> {
-    let mut tried = split::Tried::default();
+    let mut unsplit = split::Unsplit::default();
     for round in 0..rounds {
         context.step("optimise", round as f64 / rounds as f64)?;
         context.timed("assign", |_| {
@@ -134,7 +134,7 @@ fn optimise(
             // The last round leaves what the cut has made straight.
             if round + 1 < rounds {
                 context.timed("split", |context| {
-                    split::split(context, scene, models, labels, &mut tried)
+                    split::split(context, scene, models, labels, &mut unsplit)
                 })?;
             }
         }

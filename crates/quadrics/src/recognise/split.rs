@@ -35,7 +35,7 @@ const SAME: f64 = 0.95;
 const FEWEST: usize = 12;
 
 /// Splits regions under independent noise while the criterion of merging falls, each once, and those
-/// that were `tried` before only where they have changed.
+/// that were left `unsplit` before only where they have changed.
 ///
 /// Without noise regions take in nothing that is not theirs, and on scans the waviness would part them.
 ///
@@ -46,7 +46,7 @@ pub fn split(
     scene: &Scene,
     models: &mut Vec<Model>,
     labels: &mut [u32],
-    tried: &mut Tried,
+    unsplit: &mut Unsplit,
 ) -> Result<()> {
     if !scene.noisy() {
         return Ok(());
@@ -59,7 +59,7 @@ pub fn split(
         .enumerate()
         .map_init(Marks::default, |marks, (id, model)| {
             let faces = regions.faces(id);
-            if tried.has(faces) {
+            if unsplit.has(faces) {
                 return None;
             }
             let parts = around.parts(id, marks);
@@ -67,7 +67,7 @@ pub fn split(
             parts.into_iter().chain(halves).max_by(|a, b| a.gain.total_cmp(&b.gain))
         })
         .collect();
-    *tried = Tried::new(labels, &split);
+    *unsplit = Unsplit::new(labels, &split);
     for (id, Parts { parts, .. }) in (0..).zip(split).filter_map(|(id, parts)| Some((id, parts?))) {
         for (k, (faces, model)) in parts.into_iter().enumerate() {
             let label = if k == 0 { id } else { models.len() };
@@ -84,14 +84,14 @@ pub fn split(
 
 /// The regions that were tried last and stayed whole.
 #[derive(Default)]
-pub struct Tried {
+pub struct Unsplit {
     /// The region that a face was in.
     regions: Vec<u32>,
     /// Faces of every region; none of one that was split.
     sizes: Vec<usize>,
 }
 
-impl Tried {
+impl Unsplit {
     fn new(labels: &[u32], split: &[Option<Parts>]) -> Self {
         let mut sizes = vec![0; split.len()];
         for &label in labels.iter().filter(|&&label| split[label as usize].is_none()) {

@@ -45,9 +45,9 @@ impl LocalPlane {
 
 impl Local<3> for LocalPlane {
     #[inline(always)]
-    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 3]) {
+    fn residual(&self, points: Packet) -> (Lanes, [Lanes; 3]) {
         // In the frame of the normal and the tangents, where the normal's torque is plain.
-        let offset = point.from(&self.foot);
+        let offset = points.from(&self.foot);
         let (x, y) = (offset.dot(&self.tangents.0), offset.dot(&self.tangents.1));
         (offset.dot(&self.normal), [Lanes::splat(-1.0), -y, x])
     }
@@ -94,9 +94,9 @@ impl LocalSphere {
 
 impl Local<4> for LocalSphere {
     #[inline(always)]
-    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 4]) {
+    fn residual(&self, points: Packet) -> (Lanes, [Lanes; 4]) {
         // In the frame of the tangents and the normal, about the centre.
-        let offset = point.from(&self.center);
+        let offset = points.from(&self.center);
         let (x, y, z) =
             (offset.dot(&self.tangents.0), offset.dot(&self.tangents.1), offset.dot(&self.normal));
         let length = (x * x + y * y + z * z).sqrt();
@@ -151,9 +151,9 @@ impl LocalCylinder {
 
 impl Local<5> for LocalCylinder {
     #[inline(always)]
-    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 5]) {
+    fn residual(&self, points: Packet) -> (Lanes, [Lanes; 5]) {
         // In the frame of normal, across and axis.
-        let offset = point.from(&self.foot);
+        let offset = points.from(&self.foot);
         let (x, y, z) =
             (offset.dot(&self.normal), offset.dot(&self.across), offset.dot(&self.axis));
         let from_axis = x + self.radius;
@@ -247,9 +247,9 @@ impl LocalCone {
 
 impl Local<6> for LocalCone {
     #[inline(always)]
-    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 6]) {
+    fn residual(&self, points: Packet) -> (Lanes, [Lanes; 6]) {
         // In the frame of outward, across and axis.
-        let offset = point.from(&self.center);
+        let offset = points.from(&self.center);
         let (x, y, h) =
             (offset.dot(&self.outward), offset.dot(&self.across), offset.dot(&self.axis));
         let (sine, cosine, radius) = (self.sine, self.cosine, 1.0 / self.curvature);
@@ -298,10 +298,10 @@ impl LocalTorus {
 
 impl Local<7> for LocalTorus {
     #[inline(always)]
-    fn residual(&self, point: Packet) -> (Lanes, [Lanes; 7]) {
+    fn residual(&self, points: Packet) -> (Lanes, [Lanes; 7]) {
         // In the frame of the tangents and the axis.
         let torus = &self.torus;
-        let offset = point.from(&torus.center);
+        let offset = points.from(&torus.center);
         let (u, v) = (&self.tangents.0, &self.tangents.1);
         let (x, y, h) = (offset.dot(u), offset.dot(v), offset.dot(&torus.axis));
         let r = (x * x + y * y).sqrt().at_least(f64::MIN_POSITIVE);
