@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use super::assign::Model;
 use super::moves::{LABEL, SAMPLES, best, borders, tidy};
 use super::related::priced;
-use super::scene::{Marks, Scene};
+use super::scene::{Gathered, Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
 use crate::partition::Regions;
 use crate::surface::Surface;
-use crate::surface::select::Evidence;
+use crate::surface::select::{self, Choice, Evidence};
 
 /// Regions whose normals differ more across their border, on the mean, are not one surface. Under
 /// independent noise normals come filtered so that they differ less.
@@ -34,18 +34,54 @@ const CHANGE_ELSE: f64 = -2.0 * LABEL;
 /// being two: one of their type that leaves less than this misfit, which is noise, is no loss.
 const WAVES: f64 = 1.0;
 
+/// Vertices of either region that one surface for both must not fit much worse than the region's own. The
+/// samples of both together hold few of a small one beside a large one, so their misfit errs by more than a
+/// fillet is worth; the difference on the same vertices does not.
+const WITNESSES: usize = 600;
+/// How much worse, beside what the prices save, in units of the criterion (30 is as good, decision 0002).
+const REFUSED: f64 = 80.0;
+
 /// A pair of adjacent regions and what merging them gains.
 struct Union {
     gain: f64,
-    surface: Surface,
-    side: Side,
+    choice: Choice,
 }
 
 /// What a region is worth as it is.
-#[derive(Clone, Copy)]
 struct Side {
     criterion: f64,
     vertices: usize,
+    /// What its surface costs, whatever it leaves.
+    price: f64,
+    witnesses: Gathered,
+    /// What it leaves on them.
+    misfit: f64,
+}
+
+impl Side {
+    fn new(
+        (scene, evidence): (&Scene, Evidence),
+        faces: &[u32],
+        choice: &Choice,
+        marks: &mut Marks,
+    ) -> Self {
+        let witnesses = scene.samples(faces, WITNESSES, marks);
+        let vertices = witnesses.total;
+        let misfit = select::misfit(&choice.surface, &witnesses.points, evidence.sigma);
+        let price = price(choice, vertices, evidence);
+        Self { criterion: choice.criterion, vertices, price, witnesses, misfit }
+    }
+
+    /// What its own surface is worth more than another for these vertices.
+    fn loss(&self, other: &Surface, evidence: Evidence) -> f64 {
+        let misfit = select::misfit(other, &self.witnesses.points, evidence.sigma);
+        evidence.samples(self.vertices) * (misfit - self.misfit) - self.price
+    }
+}
+
+/// What a choice costs whatever it leaves of so many vertices.
+fn price(choice: &Choice, vertices: usize, evidence: Evidence) -> f64 {
+    choice.criterion - evidence.samples(vertices) * choice.misfit
 }
 
 /// Regions while they merge; a pair is judged once, and again when one of the two has changed.
@@ -55,6 +91,7 @@ struct Merger<'s, 'm> {
     faces: Vec<Vec<u32>>,
     sides: Vec<Side>,
     unions: BTreeMap<(u32, u32), Option<Union>>,
+    marks: Marks,
 }
 
 /// Merges while the criterion falls.
@@ -119,10 +156,10 @@ impl<'s, 'm> Merger<'s, 'm> {
             .map_init(Marks::default, |marks, (faces, model)| {
                 let gathered = scene.samples(faces, SAMPLES, marks);
                 let choice = priced(scene, model.surface.clone(), &gathered, evidence);
-                Side { criterion: choice.criterion, vertices: gathered.total }
+                Side::new((scene, evidence), faces, &choice, marks)
             })
             .collect();
-        Self { scene, evidence, faces, sides, unions: BTreeMap::new() }
+        Self { scene, evidence, faces, sides, unions: BTreeMap::new(), marks: Marks::default() }
     }
 
     /// Fits one surface to both regions of every pair that is not known yet.
@@ -140,13 +177,18 @@ impl<'s, 'm> Merger<'s, 'm> {
                     // Vertices on the border have counted on both sides.
                     let shared = one.vertices + other.vertices - gathered.total;
                     gain -= shared as f64 * choice.misfit.min(1.0);
+                    let loss = one.loss(&choice.surface, self.evidence)
+                        + other.loss(&choice.surface, self.evidence)
+                        + price(&choice, gathered.total, self.evidence);
+                    if loss > REFUSED {
+                        gain = gain.min(-loss);
+                    }
                 }
                 let alike = |id: u32| models[id as usize].surface.is_like(&choice.surface);
                 if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {
                     gain = gain.max(0.0);
                 }
-                let side = Side { criterion: choice.criterion, vertices: gathered.total };
-                Some(Union { gain, surface: choice.surface, side })
+                Some(Union { gain, choice })
             })
             .collect();
         self.unions.extend(unknown.into_iter().zip(judged));
@@ -181,8 +223,9 @@ impl<'s, 'm> Merger<'s, 'm> {
             merged += 1;
             let Some(Some(union)) = self.unions.remove(&(a, b)) else { continue };
             let faces = self.joined(a, b);
-            models[a as usize] = Model::new(self.scene, union.surface, &faces);
-            self.sides[a as usize] = union.side;
+            self.sides[a as usize] =
+                Side::new((self.scene, self.evidence), &faces, &union.choice, &mut self.marks);
+            models[a as usize] = Model::new(self.scene, union.choice.surface, &faces);
             self.faces[b as usize].iter().for_each(|&f| labels[f as usize] = a);
             self.faces[a as usize] = faces;
             self.faces[b as usize].clear();
@@ -196,4 +239,60 @@ impl<'s, 'm> Merger<'s, 'm> {
 /// large to be noise counts, however few samples are independent.
 pub(super) fn merging(evidence: Evidence) -> Evidence {
     Evidence { independent: evidence.independent.sqrt(), ..evidence }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{Point, Vector};
+    use crate::mesh::{Mesh, Working};
+    use crate::recognise::moves;
+    use crate::surface::Plane;
+    use crate::synth::{self, Noise};
+
+    /// Vertices along a side of the sheet, and those across the strip that bends.
+    const SIDE: u32 = 80;
+    const STRIP: u32 = 8;
+    const SIGMA: f64 = 0.004;
+    /// How far the strip bends away, in the end.
+    const DEPTH: f64 = 0.008;
+
+    /// A flat sheet with a strip along one side that bends away from it; labels 0 and 1.
+    fn sheet() -> (Mesh, Vec<u32>) {
+        let at = |i: u32, j: u32| {
+            let bent = f64::from((i + STRIP).saturating_sub(SIDE - 1)) / f64::from(STRIP);
+            let [x, y] = [i, j].map(|k| f64::from(k) / f64::from(SIDE));
+            Point::new(x, y, -DEPTH * bent.powi(2))
+        };
+        let corner = |i: u32, j: u32| i * SIDE + j;
+        let quads = (0..SIDE - 1).flat_map(|i| (0..SIDE - 1).map(move |j| (i, j)));
+        let faces = quads.clone().flat_map(|(i, j)| {
+            let [a, b, c, d] =
+                [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| corner(i, j));
+            [[a, b, c], [a, c, d]]
+        });
+        let positions = (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| at(i, j))).collect();
+        let labels = quads.flat_map(|(i, _)| [u32::from(i + STRIP >= SIDE - 1); 2]).collect();
+        (Mesh { positions, faces: faces.collect() }, labels)
+    }
+
+    #[test]
+    fn a_narrow_strip_that_bends_stays_apart_from_a_large_plane_whatever_the_noise() {
+        let (mesh, labels) = sheet();
+        for seed in 0..20 {
+            let noise = Noise::uniform(SIGMA, 1.0);
+            let mesh = synth::add_noise(&mut Context::new(seed), &mesh, &noise).unwrap();
+            let working = Working::new(mesh);
+            let mut scene = Scene::raw(&working);
+            scene.evidence.general = false;
+            scene.evidence.sigma = SIGMA / 3f64.sqrt();
+            scene.filter_for_borders();
+            let plane = Surface::Plane(Plane::through(Point::origin(), Vector::z_axis()));
+            let mut models = vec![Model { surface: plane, side: 1.0 }; 2];
+            moves::fit(&scene, &mut models, &labels);
+            let mut merged = labels.clone();
+            merge(&mut Context::new(seed), &scene, &mut models, &mut merged).unwrap();
+            assert_eq!(models.len(), 2, "seed {seed}");
+        }
+    }
 }
