@@ -85,9 +85,11 @@ impl Move {
         work: &mut Work,
     ) -> Self {
         let model = &models[label as usize];
-        // Nothing tells the faces of one free-form patch from those of another: they stay.
+        // Nothing tells the faces of one free-form patch from those of another: they stay. Under noise no
+        // patch takes any face: it would spread along all edges that a scan rounds.
         let free = |id: u32| matches!(models[id as usize].surface, Surface::FreeForm);
-        let alike = |face: u32| free(label) && free(labels[face as usize]);
+        let barred =
+            |face: u32| free(label) && (free(labels[face as usize]) || !scene.evidence.general);
         // Faces of others, reached from the region, that might come over.
         work.seen.clear(labels.len());
         work.place.resize(labels.len(), NONE);
@@ -105,7 +107,7 @@ impl Move {
                 seen.push(face);
                 work.place[face as usize] = NONE;
                 let cost = face_cost(scene, model, face as usize);
-                if cost < current[face as usize] + SLACK && !alike(face) {
+                if cost < current[face as usize] + SLACK && !barred(face) {
                     work.place[face as usize] = active.len() as u32;
                     active.push((face, cost));
                 }
@@ -167,15 +169,19 @@ mod tests {
     use crate::mesh::Working;
     use crate::prepare::to_unit_cube;
     use crate::recognise::assign::models;
-    use crate::synth::{self, Noise};
+    use crate::synth::{self, Noise, Part};
 
-    #[test]
-    fn moves_at_once_come_to_what_moves_in_turn_come_to() {
+    fn noisy_demo() -> (Part, Working) {
         let part = synth::part("demo", 8_000).unwrap();
         let part = part.transformed(&to_unit_cube(&part.mesh).unwrap());
         let noise = Noise::uniform(0.004, 0.9);
         let noisy = synth::add_noise(&mut Context::new(1), &part.mesh, &noise).unwrap();
-        let working = Working::new(noisy);
+        (part, Working::new(noisy))
+    }
+
+    #[test]
+    fn moves_at_once_come_to_what_moves_in_turn_come_to() {
+        let (part, working) = noisy_demo();
         let scene = Scene::new(&working);
         let models = models(&scene, &Regions::new(&part.labels), part.surfaces.iter());
         let expanded = |threads: usize| {
@@ -187,5 +193,20 @@ mod tests {
         let in_turn = expanded(1);
         assert_ne!(in_turn, part.labels);
         assert_eq!(expanded(3), in_turn);
+    }
+
+    #[test]
+    fn what_no_surface_explains_takes_no_faces_under_noise() {
+        let (part, working) = noisy_demo();
+        let mut scene = Scene::new(&working);
+        // Less than there is: nothing explains anything.
+        scene.evidence.sigma /= 10.0;
+        scene.evidence.general = false;
+        let mut models = models(&scene, &Regions::new(&part.labels), part.surfaces.iter());
+        models[0].surface = Surface::FreeForm;
+        let mut labels = part.labels.clone();
+        expand(&scene, &models, &mut labels);
+        let count = |labels: &[u32]| labels.iter().filter(|&&label| label == 0).count();
+        assert!(count(&labels) <= count(&part.labels));
     }
 }
