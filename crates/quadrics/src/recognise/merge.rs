@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::assign::Model;
 use super::moves::{LABEL, SAMPLES, best, borders, tidy};
+use super::pool::Pool;
 use super::related::priced;
 use super::scene::{Gathered, Marks, Scene};
 use crate::context::Context;
@@ -91,7 +92,7 @@ struct Merger<'s, 'm> {
     faces: Vec<Vec<u32>>,
     sides: Vec<Side>,
     unions: BTreeMap<(u32, u32), Option<Union>>,
-    marks: Marks,
+    pool: Pool<Marks>,
 }
 
 /// Merges while the criterion falls.
@@ -150,16 +151,16 @@ impl<'s, 'm> Merger<'s, 'm> {
     fn new(scene: &'s Scene<'m>, models: &[Model], labels: &[u32]) -> Self {
         let faces: Vec<Vec<u32>> = Regions::new(labels).iter().map(<[u32]>::to_vec).collect();
         let evidence = merging(scene.evidence);
-        let sides = faces
-            .par_iter()
-            .zip(models)
-            .map_init(Marks::default, |marks, (faces, model)| {
+        let pool = Pool::<Marks>::default();
+        let side = |(faces, model): (&Vec<u32>, &Model)| {
+            pool.with(|marks| {
                 let gathered = scene.samples(faces, SAMPLES, marks);
                 let choice = priced(scene, model.surface.clone(), &gathered, evidence);
                 Side::new((scene, evidence), faces, &choice, marks)
             })
-            .collect();
-        Self { scene, evidence, faces, sides, unions: BTreeMap::new(), marks: Marks::default() }
+        };
+        let sides = faces.par_iter().zip(models).map(side).collect();
+        Self { scene, evidence, faces, sides, unions: BTreeMap::new(), pool }
     }
 
     /// Fits one surface to both regions of every pair that is not known yet.
@@ -168,8 +169,10 @@ impl<'s, 'm> Merger<'s, 'm> {
             pairs.map(|(a, b, _)| (a, b)).filter(|pair| !self.unions.contains_key(pair)).collect();
         let judged: Vec<Option<Union>> = unknown
             .par_iter()
-            .map_init(Marks::default, |marks, &(a, b)| {
-                let gathered = self.scene.samples(&self.joined(a, b), SAMPLES, marks);
+            .with_max_len(1)
+            .map(|&(a, b)| {
+                let joined = self.joined(a, b);
+                let gathered = self.pool.with(|marks| self.scene.samples(&joined, SAMPLES, marks));
                 let choice = best(self.scene, &gathered, self.evidence)?;
                 let [one, other] = [a, b].map(|id| &self.sides[id as usize]);
                 let mut gain = one.criterion + other.criterion - choice.criterion;
@@ -223,8 +226,9 @@ impl<'s, 'm> Merger<'s, 'm> {
             merged += 1;
             let Some(Some(union)) = self.unions.remove(&(a, b)) else { continue };
             let faces = self.joined(a, b);
-            self.sides[a as usize] =
-                Side::new((self.scene, self.evidence), &faces, &union.choice, &mut self.marks);
+            self.sides[a as usize] = self
+                .pool
+                .with(|marks| Side::new((self.scene, self.evidence), &faces, &union.choice, marks));
             models[a as usize] = Model::new(self.scene, union.choice.surface, &faces);
             self.faces[b as usize].iter().for_each(|&f| labels[f as usize] = a);
             self.faces[a as usize] = faces;

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::around::Around;
 use super::assign::{Model, face_cost};
+use super::pool::Pool;
 use super::related;
 use super::scene::{Gathered, Marks, Scene};
 use crate::mesh::NONE;
@@ -24,9 +25,10 @@ pub(super) const SAMPLES: usize = 200;
 /// Chooses the surface of every region anew; under independent noise also among the blends of its neighbours.
 pub fn fit(scene: &Scene, models: &mut [Model], labels: &[u32]) {
     let regions = Regions::new(labels);
-    models.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (id, model)| {
+    let pool = Pool::<Marks>::default();
+    models.par_iter_mut().enumerate().with_max_len(1).for_each(|(id, model)| {
         if id < regions.len() {
-            refit(scene, model, regions.faces(id), marks);
+            pool.with(|marks| refit(scene, model, regions.faces(id), marks));
         }
     });
     if scene.noisy() {

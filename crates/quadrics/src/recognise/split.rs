@@ -12,6 +12,7 @@ use super::assign::{Model, border_cost, face_cost};
 use super::cut::Cut;
 use super::merge::CHANGE;
 use super::moves::{choose, judge, tidy};
+use super::pool::Pool;
 use super::profile::{CHEAPEST, Parts};
 use super::scene::{Marks, Scene};
 use crate::context::Context;
@@ -54,17 +55,21 @@ pub fn split(
     context.step("split", 0.0)?;
     let regions = Regions::new(labels);
     let around = Around { scene, models, labels, regions: &regions };
+    let pool = Pool::<Marks>::default();
     let split: Vec<Option<Parts>> = models
         .par_iter()
         .enumerate()
-        .map_init(Marks::default, |marks, (id, model)| {
+        .with_max_len(1)
+        .map(|(id, model)| {
             let faces = regions.faces(id);
             if unsplit.has(faces) {
                 return None;
             }
-            let parts = around.parts(id, marks);
-            let halves = Region { scene, labels, id: id as u32, faces, marks }.split(model);
-            parts.into_iter().chain(halves).max_by(|a, b| a.gain.total_cmp(&b.gain))
+            pool.with(|marks| {
+                let parts = around.parts(id, marks);
+                let halves = Region { scene, labels, id: id as u32, faces, marks }.split(model);
+                parts.into_iter().chain(halves).max_by(|a, b| a.gain.total_cmp(&b.gain))
+            })
         })
         .collect();
     *unsplit = Unsplit::new(labels, &split);
