@@ -18,8 +18,9 @@ const AT_ONCE: usize = 8;
 
 /// Lets every surface in turn take the faces that lower the energy.
 ///
-/// Several moves are worked out at once. One that looked at a face which a move before it has changed
-/// is worked out again: whatever the number of threads, it is as if each had waited for those before.
+/// Several moves are worked out at once, of regions that do not touch. One that looked at a face which a
+/// move before it has changed is worked out again: whatever the number of threads, it is as if each had
+/// waited for those before.
 pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
     let mut current: Vec<f64> = labels
         .par_iter()
@@ -29,10 +30,10 @@ pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
         .collect();
     let regions = Regions::new(labels);
     let pool = Pool::<Work>::default();
+    let batches = batches(scene, &regions, labels);
     let at_once = if rayon::current_num_threads() > 1 { AT_ONCE } else { 1 };
-    let ids: Vec<u32> = (0..regions.len() as u32).collect();
     let mut changed = Marks::default();
-    for batch in ids.chunks(at_once) {
+    for batch in batches.iter().flat_map(|batch| batch.chunks(at_once)) {
         let work_out = |&id: &u32, labels: &[u32], current: &[f64]| {
             let region = regions.faces(id as usize);
             pool.with(|work| Move::new(scene, models, id, region, labels, current, work))
@@ -56,6 +57,35 @@ pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
             }
         }
     }
+}
+
+/// All regions, the lowest first, in groups of at most [`AT_ONCE`] that do not touch: their moves seldom meet.
+fn batches(scene: &Scene, regions: &Regions, labels: &[u32]) -> Vec<Vec<u32>> {
+    let beside = |faces: &[u32]| {
+        let across = faces.iter().flat_map(|&face| scene.adjacency.across(face as usize));
+        let mut beside: Vec<u32> = across.map(|face| labels[face]).collect();
+        beside.sort_unstable();
+        beside.dedup();
+        beside
+    };
+    let ids: Vec<u32> = (0..regions.len() as u32).collect();
+    let beside: Vec<Vec<u32>> =
+        ids.par_iter().map(|&id| beside(regions.faces(id as usize))).collect();
+    let mut batches = Vec::new();
+    let mut left = ids;
+    while !left.is_empty() {
+        let mut batch: Vec<u32> = Vec::with_capacity(AT_ONCE);
+        left.retain(|&id| {
+            let apart = |other: &u32| beside[id as usize].binary_search(other).is_err();
+            let joins = batch.len() < AT_ONCE && batch.iter().all(apart);
+            if joins {
+                batch.push(id);
+            }
+            !joins
+        });
+        batches.push(batch);
+    }
+    batches
 }
 
 /// What one surface takes.
