@@ -51,32 +51,32 @@ struct Union {
 /// What a region is worth as it is.
 struct Side {
     criterion: f64,
-    vertices: usize,
     /// What its surface costs, whatever it leaves.
     price: f64,
+    /// Samples of its vertices.
     witnesses: Gathered,
-    /// What it leaves on them.
+    /// What its surface leaves on them.
     misfit: f64,
 }
 
 impl Side {
     fn new(
-        (scene, evidence): (&Scene, Evidence),
+        scene: &Scene,
+        evidence: Evidence,
         faces: &[u32],
         choice: &Choice,
         marks: &mut Marks,
     ) -> Self {
         let witnesses = scene.samples(faces, WITNESSES, marks);
-        let vertices = witnesses.total;
         let misfit = select::misfit(&choice.surface, &witnesses.points, evidence.sigma);
-        let price = price(choice, vertices, evidence);
-        Self { criterion: choice.criterion, vertices, price, witnesses, misfit }
+        let price = price(choice, witnesses.total, evidence);
+        Self { criterion: choice.criterion, price, witnesses, misfit }
     }
 
     /// What its own surface is worth more than another for these vertices.
     fn loss(&self, other: &Surface, evidence: Evidence) -> f64 {
         let misfit = select::misfit(other, &self.witnesses.points, evidence.sigma);
-        evidence.samples(self.vertices) * (misfit - self.misfit) - self.price
+        evidence.samples(self.witnesses.total) * (misfit - self.misfit) - self.price
     }
 }
 
@@ -156,7 +156,7 @@ impl<'s, 'm> Merger<'s, 'm> {
             pool.with(|marks| {
                 let gathered = scene.samples(faces, SAMPLES, marks);
                 let choice = priced(scene, model.surface.clone(), &gathered, evidence);
-                Side::new((scene, evidence), faces, &choice, marks)
+                Side::new(scene, evidence, faces, &choice, marks)
             })
         };
         let sides = faces.par_iter().zip(models).map(side).collect();
@@ -178,7 +178,7 @@ impl<'s, 'm> Merger<'s, 'm> {
                 let mut gain = one.criterion + other.criterion - choice.criterion;
                 if self.scene.noisy() {
                     // Vertices on the border have counted on both sides.
-                    let shared = one.vertices + other.vertices - gathered.total;
+                    let shared = one.witnesses.total + other.witnesses.total - gathered.total;
                     gain -= shared as f64 * choice.misfit.min(1.0);
                     let loss = one.loss(&choice.surface, self.evidence)
                         + other.loss(&choice.surface, self.evidence)
@@ -228,7 +228,7 @@ impl<'s, 'm> Merger<'s, 'm> {
             let faces = self.joined(a, b);
             self.sides[a as usize] = self
                 .pool
-                .with(|marks| Side::new((self.scene, self.evidence), &faces, &union.choice, marks));
+                .with(|marks| Side::new(self.scene, self.evidence, &faces, &union.choice, marks));
             models[a as usize] = Model::new(self.scene, union.choice.surface, &faces);
             self.faces[b as usize].iter().for_each(|&f| labels[f as usize] = a);
             self.faces[a as usize] = faces;
