@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::assign::Model;
 use super::scene::Scene;
-use crate::mesh::NONE;
 use crate::partition::Regions;
 
 /// Neighbours that are looked at: those of the longest borders.
@@ -27,12 +26,8 @@ impl Around<'_> {
     /// The neighbours of a region with the longest borders, the longest first.
     pub fn neighbours(&self, id: usize) -> Vec<u32> {
         let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
-        let faces = self.regions.faces(id).iter();
-        let across = faces.flat_map(|&face| self.scene.adjacency.neighbours[face as usize]);
-        for other in across.filter(|&face| face != NONE).map(|face| self.labels[face as usize]) {
-            if other != id as u32 {
-                *borders.entry(other).or_default() += 1;
-            }
+        for other in self.scene.beside(id as u32, self.regions.faces(id), self.labels) {
+            *borders.entry(other).or_default() += 1;
         }
         let mut longest: Vec<(u32, usize)> = borders.into_iter().collect();
         longest.sort_by_key(|&(_, edges)| std::cmp::Reverse(edges));

@@ -61,18 +61,16 @@ pub fn expand(scene: &Scene, models: &[Model], labels: &mut [u32]) {
 
 /// All regions, the lowest first, in groups of at most [`AT_ONCE`] that do not touch: their moves seldom meet.
 fn batches(scene: &Scene, regions: &Regions, labels: &[u32]) -> Vec<Vec<u32>> {
-    let beside = |faces: &[u32]| {
-        let across = faces.iter().flat_map(|&face| scene.adjacency.across(face as usize));
-        let mut beside: Vec<u32> = across.map(|face| labels[face]).collect();
+    let beside = |&id: &u32| {
+        let faces = regions.faces(id as usize);
+        let mut beside: Vec<u32> = scene.beside(id, faces, labels).collect();
         beside.sort_unstable();
         beside.dedup();
         beside
     };
-    let ids: Vec<u32> = (0..regions.len() as u32).collect();
-    let beside: Vec<Vec<u32>> =
-        ids.par_iter().map(|&id| beside(regions.faces(id as usize))).collect();
+    let mut left: Vec<u32> = (0..regions.len() as u32).collect();
+    let beside: Vec<Vec<u32>> = left.par_iter().map(beside).collect();
     let mut batches = Vec::new();
-    let mut left = ids;
     while !left.is_empty() {
         let mut batch: Vec<u32> = Vec::with_capacity(AT_ONCE);
         left.retain(|&id| {

@@ -8,9 +8,10 @@ use super::assign::Model;
 use super::moves::{LABEL, SAMPLES, best, borders, tidy};
 use super::pool::Pool;
 use super::related::priced;
-use super::scene::{Gathered, Marks, Scene};
+use super::scene::{Marks, Scene};
 use crate::context::Context;
 use crate::error::Result;
+use crate::math::Point;
 use crate::partition::Regions;
 use crate::surface::Surface;
 use crate::surface::select::{self, Choice, Evidence};
@@ -46,17 +47,15 @@ const REFUSED: f64 = 80.0;
 struct Union {
     gain: f64,
     choice: Choice,
+    vertices: usize,
 }
 
 /// What a region is worth as it is.
 struct Side {
     criterion: f64,
-    /// What its surface costs, whatever it leaves.
-    price: f64,
-    /// Samples of its vertices.
-    witnesses: Gathered,
-    /// What its surface leaves on them.
-    misfit: f64,
+    vertices: usize,
+    /// Under independent noise.
+    witness: Option<Witness>,
 }
 
 impl Side {
@@ -64,20 +63,32 @@ impl Side {
         scene: &Scene,
         evidence: Evidence,
         faces: &[u32],
-        choice: &Choice,
+        (choice, vertices): (&Choice, usize),
         marks: &mut Marks,
     ) -> Self {
-        let witnesses = scene.samples(faces, WITNESSES, marks);
-        let misfit = select::misfit(&choice.surface, &witnesses.points, evidence.sigma);
-        let price = price(choice, witnesses.total, evidence);
-        Self { criterion: choice.criterion, price, witnesses, misfit }
+        let witness = scene.noisy().then(|| {
+            let points = scene.samples(faces, WITNESSES, marks).points;
+            let misfit = select::misfit(&choice.surface, &points, evidence.sigma);
+            Witness { price: price(choice, vertices, evidence), points, misfit }
+        });
+        Self { criterion: choice.criterion, vertices, witness }
     }
 
-    /// What its own surface is worth more than another for these vertices.
-    fn loss(&self, other: &Surface, evidence: Evidence) -> f64 {
-        let misfit = select::misfit(other, &self.witnesses.points, evidence.sigma);
-        evidence.samples(self.witnesses.total) * (misfit - self.misfit) - self.price
+    /// What its own surface is worth more than another for its vertices, as far as they are asked.
+    fn loss(&self, other: &Surface, evidence: Evidence) -> Option<f64> {
+        let Witness { price, points, misfit } = self.witness.as_ref()?;
+        let worse = select::misfit(other, points, evidence.sigma) - misfit;
+        Some(evidence.samples(self.vertices) * worse - price)
     }
+}
+
+/// Some vertices of a region.
+struct Witness {
+    /// What its surface costs, whatever it leaves.
+    price: f64,
+    points: Vec<Point>,
+    /// What its surface leaves on them.
+    misfit: f64,
 }
 
 /// What a choice costs whatever it leaves of so many vertices.
@@ -156,7 +167,7 @@ impl<'s, 'm> Merger<'s, 'm> {
             pool.with(|marks| {
                 let gathered = scene.samples(faces, SAMPLES, marks);
                 let choice = priced(scene, model.surface.clone(), &gathered, evidence);
-                Side::new(scene, evidence, faces, &choice, marks)
+                Side::new(scene, evidence, faces, (&choice, gathered.total), marks)
             })
         };
         let sides = faces.par_iter().zip(models).map(side).collect();
@@ -178,11 +189,11 @@ impl<'s, 'm> Merger<'s, 'm> {
                 let mut gain = one.criterion + other.criterion - choice.criterion;
                 if self.scene.noisy() {
                     // Vertices on the border have counted on both sides.
-                    let shared = one.witnesses.total + other.witnesses.total - gathered.total;
+                    let shared = one.vertices + other.vertices - gathered.total;
                     gain -= shared as f64 * choice.misfit.min(1.0);
-                    let loss = one.loss(&choice.surface, self.evidence)
-                        + other.loss(&choice.surface, self.evidence)
-                        + price(&choice, gathered.total, self.evidence);
+                    let own = one.loss(&choice.surface, self.evidence)?
+                        + other.loss(&choice.surface, self.evidence)?;
+                    let loss = own + price(&choice, gathered.total, self.evidence);
                     if loss > REFUSED {
                         gain = gain.min(-loss);
                     }
@@ -191,7 +202,7 @@ impl<'s, 'm> Merger<'s, 'm> {
                 if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {
                     gain = gain.max(0.0);
                 }
-                Some(Union { gain, choice })
+                Some(Union { gain, choice, vertices: gathered.total })
             })
             .collect();
         self.unions.extend(unknown.into_iter().zip(judged));
@@ -226,9 +237,10 @@ impl<'s, 'm> Merger<'s, 'm> {
             merged += 1;
             let Some(Some(union)) = self.unions.remove(&(a, b)) else { continue };
             let faces = self.joined(a, b);
-            self.sides[a as usize] = self
-                .pool
-                .with(|marks| Side::new(self.scene, self.evidence, &faces, &union.choice, marks));
+            let worth = (&union.choice, union.vertices);
+            let side =
+                |marks: &mut Marks| Side::new(self.scene, self.evidence, &faces, worth, marks);
+            self.sides[a as usize] = self.pool.with(side);
             models[a as usize] = Model::new(self.scene, union.choice.surface, &faces);
             self.faces[b as usize].iter().for_each(|&f| labels[f as usize] = a);
             self.faces[a as usize] = faces;
@@ -248,7 +260,7 @@ pub(super) fn merging(evidence: Evidence) -> Evidence {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Point, Vector};
+    use crate::math::Vector;
     use crate::mesh::{Mesh, Working};
     use crate::recognise::moves;
     use crate::surface::Plane;

@@ -7,7 +7,6 @@ use super::assign::{Model, face_cost};
 use super::pool::Pool;
 use super::related;
 use super::scene::{Gathered, Marks, Scene};
-use crate::mesh::NONE;
 use crate::partition::{Regions, compact};
 use crate::surface::select::{self, Choice, Evidence};
 use crate::surface::{Surface, general};
@@ -40,10 +39,12 @@ pub fn fit(scene: &Scene, models: &mut [Model], labels: &[u32]) {
 fn blend(scene: &Scene, models: &mut [Model], labels: &[u32], regions: &Regions) {
     let walls = models.to_vec();
     let around = Around { scene, models: &walls, labels, regions };
-    models.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (id, model)| {
+    let pool = Pool::<Marks>::default();
+    models.par_iter_mut().enumerate().with_max_len(1).for_each(|(id, model)| {
         if id < regions.len() {
             let faces = regions.faces(id);
-            if let Some((blend, _)) = around.rather(id, &scene.samples(faces, SAMPLES, marks)) {
+            let gathered = pool.with(|marks| scene.samples(faces, SAMPLES, marks));
+            if let Some((blend, _)) = around.rather(id, &gathered) {
                 *model = Model::new(scene, blend.surface, faces);
             }
         }
@@ -151,11 +152,8 @@ pub fn drop_needless(scene: &Scene, models: &[Model], labels: &mut [u32]) -> usi
         if faces.is_empty() {
             continue;
         }
-        let mut neighbours: Vec<u32> = faces
-            .iter()
-            .flat_map(|&f| scene.adjacency.neighbours[f as usize])
-            .filter(|&f| f != NONE && labels[f as usize] != id as u32)
-            .map(|f| labels[f as usize])
+        let mut neighbours: Vec<u32> = scene
+            .beside(id as u32, faces, labels)
             // A free-form neighbour explains nothing.
             .filter(|&n| !matches!(models[n as usize].surface, Surface::FreeForm))
             .collect();

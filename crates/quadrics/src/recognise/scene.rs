@@ -146,6 +146,12 @@ impl<'a> Scene<'a> {
         gathered
     }
 
+    /// The regions beside one, some of whose faces these are: one for every edge of its border.
+    pub fn beside(&self, id: u32, faces: &[u32], labels: &[u32]) -> impl Iterator<Item = u32> {
+        let across = faces.iter().flat_map(|&face| self.adjacency.across(face as usize));
+        across.map(|face| labels[face]).filter(move |&label| label != id)
+    }
+
     /// Whether every vertex errs on its own, and that shows.
     pub fn noisy(&self) -> bool {
         !self.evidence.general && !self.correlated()
