@@ -44,7 +44,7 @@ pub fn retype(
         fits.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (i, fit)| {
             let faces = regions.faces(i);
             let gathered = scene.samples(faces, SAMPLES, marks);
-            let blend = scene.noisy().then(|| around.rather(i, &gathered)).flatten();
+            let blend = scene.noisy().then(|| around.rather(i, &gathered, marks)).flatten();
             let blend = blend.filter(|(new, old)| !new.surface.is_like(&old.surface));
             let found = blend.or_else(|| better(scene, &gathered, &fit.surface));
             if let Some((new, old)) = found {

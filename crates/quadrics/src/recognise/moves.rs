@@ -43,8 +43,11 @@ fn blend(scene: &Scene, models: &mut [Model], labels: &[u32], regions: &Regions)
     models.par_iter_mut().enumerate().with_max_len(1).for_each(|(id, model)| {
         if id < regions.len() {
             let faces = regions.faces(id);
-            let gathered = pool.with(|marks| scene.samples(faces, SAMPLES, marks));
-            if let Some((blend, _)) = around.rather(id, &gathered) {
+            let rather = pool.with(|marks| {
+                let gathered = scene.samples(faces, SAMPLES, marks);
+                around.rather(id, &gathered, marks)
+            });
+            if let Some((blend, _)) = rather {
                 *model = Model::new(scene, blend.surface, faces);
             }
         }

@@ -4,6 +4,7 @@
 //! ball between them is a circle that touches both. All that is left free is its radius.
 
 use super::Surface;
+use super::chamfer::Section;
 use super::curve::{Curve, Flat, meets};
 use super::sweep::Sweep;
 use crate::math::Point;
@@ -24,10 +25,30 @@ pub struct Walls {
 }
 
 /// A ball: its centre, its radius and the ways from the centre to where it touches.
-struct Ball {
-    center: Flat,
-    radius: f64,
-    touches: [Flat; 2],
+pub(super) struct Ball {
+    pub center: Flat,
+    pub radius: f64,
+    pub touches: [Flat; 2],
+}
+
+/// The blend of two walls that some points lie nearest to.
+pub struct Blend {
+    /// A cylinder or a torus.
+    pub surface: Surface,
+    /// Of the ball that leaves it.
+    pub radius: f64,
+    /// -1 where it rounds an edge, +1 where it fills a corner.
+    depth: f64,
+    /// The middle of the points.
+    middle: Flat,
+}
+
+/// What may be there instead of a blend.
+pub struct Chamfer {
+    /// A plane, a cone or a cylinder.
+    pub surface: Surface,
+    /// Logarithm of how much likelier it is than the blend.
+    pub gain: f64,
 }
 
 impl Walls {
@@ -40,7 +61,7 @@ impl Walls {
     }
 
     /// The blend that some points lie nearest to, of a radius that is not below `least`.
-    pub fn nearest(&self, points: &[Point], least: f64) -> Option<Surface> {
+    pub fn nearest(&self, points: &[Point], least: f64) -> Option<Blend> {
         let flat: Vec<Flat> = points.iter().map(|p| self.sweep.flat(*p)).collect();
         let middle = flat.iter().sum::<Flat>() / flat.len() as f64;
         // What rounds an edge lies inside of both walls, what fills a corner outside.
@@ -61,9 +82,22 @@ impl Walls {
             let beside = [best.1 / factor, best.1 * factor].into_iter().filter_map(misfit);
             best = beside.chain([best]).min_by(better)?;
         }
-        let ball = self.ball(best.1, depth, middle)?;
-        let Ball { center, radius, .. } = ball;
-        self.sweep.surface(&Curve::Circle { center, radius, outward: 1.0 })
+        let Ball { center, radius, .. } = self.ball(best.1, depth, middle)?;
+        let surface = self.sweep.surface(&Curve::Circle { center, radius, outward: 1.0 })?;
+        Some(Blend { surface, radius, depth, middle })
+    }
+
+    /// The likeliest chamfer where a blend was found, by points of the band and of both walls that stray by
+    /// sigma. `None` where the walls do not meet.
+    pub fn chamfer(&self, blend: &Blend, points: &[Point], sigma: f64) -> Option<Chamfer> {
+        let &Blend { radius, depth, middle, .. } = blend;
+        let ball = |radius| self.ball(radius, depth, middle);
+        let corners = meets(&self.curves[0], &self.curves[1]).into_iter().flatten();
+        let apart = |corner: &Flat| (corner - middle).norm_squared();
+        let corner = corners.min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+        let flat = points.iter().map(|p| self.sweep.flat(*p)).collect();
+        let (chord, gain) = Section::new(&ball, radius, corner, flat, sigma)?.cut()?;
+        Some(Chamfer { surface: self.sweep.surface(&chord)?, gain })
     }
 
     /// The ball at a depth of so many radii that touches both walls and spans the way past a point.
@@ -79,6 +113,11 @@ impl Walls {
 }
 
 impl Ball {
+    /// Where it touches.
+    pub fn feet(&self) -> [Flat; 2] {
+        self.touches.map(|touch| self.center + touch)
+    }
+
     /// Whether a point is seen from the centre between the places where the ball touches.
     fn spans(&self, point: Flat) -> bool {
         let [from, to] = self.touches;
@@ -119,7 +158,7 @@ mod tests {
     fn is_found(walls: [(Surface, f64); 2], blend: &Surface, around: Point) {
         let walls = Walls::new([0, 1].map(|k| (&walls[k].0, walls[k].1)), around).unwrap();
         let points = points(blend, around);
-        let found = walls.nearest(&points, 0.01).unwrap();
+        let found = walls.nearest(&points, 0.01).unwrap().surface;
         let worst = points.iter().map(|p| found.distance(*p).unwrap().abs()).fold(0.0, f64::max);
         assert!(found.is_like(blend) && worst < 1e-4, "{found:?} {worst}");
     }

@@ -6,6 +6,7 @@
 mod arc;
 mod axis;
 pub mod blend;
+mod chamfer;
 mod condensed;
 mod cone;
 mod curve;
