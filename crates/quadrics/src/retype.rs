@@ -21,8 +21,8 @@ const SAMPLES: usize = 400;
 /// scan of 23 shapes), of those that save less 7 of 21.
 const MARGIN: f64 = 3.0;
 
-/// Learns the directions and axes that the surfaces show, and makes planes and cylinders of the regions
-/// that stand there; under independent noise also blends of those between two walls. On a clean mesh the
+/// Learns the directions and axes that the surfaces show, and makes planes, cylinders and cones of the
+/// regions that stand there; under independent noise also blends of those between two walls. On a clean mesh the
 /// faces alone tell the type.
 ///
 /// # Errors
@@ -58,7 +58,7 @@ pub fn retype(
     })
 }
 
-/// The plane or cylinder of another type that is shown by more than the surface, and the surface, each
+/// The plane, cylinder or cone of another type that is shown by more than the surface, and the surface, each
 /// with the criterion that they were compared by.
 fn better(scene: &Scene, gathered: &Gathered, surface: &Surface) -> Option<(Choice, Choice)> {
     if matches!(surface, Surface::FreeForm | Surface::Quadric(_)) {

@@ -6,9 +6,19 @@ use crate::math::{Point, Vector};
 use crate::mesh::NONE;
 use crate::surface::Surface;
 
-/// Whether a region may be a piece of a free-form patch.
-pub fn is_curved(model: &Model) -> bool {
-    !matches!(model.surface, Surface::Plane(_) | Surface::FreeForm)
+/// Length of the mean normal below which a region goes around: that of three quarters of a cylinder.
+const AROUND: f64 = 0.3;
+
+/// Whether a region may be a piece of a free-form patch: it is curved, but not all the way around.
+pub fn is_piece(scene: &Scene, model: &Model, faces: &[u32]) -> bool {
+    if matches!(model.surface, Surface::Plane(_) | Surface::FreeForm) {
+        return false;
+    }
+    let geometry = scene.geometry;
+    let area = |&face: &u32| geometry.areas[face as usize];
+    let normal = |face: &u32| geometry.normals[*face as usize] * area(face);
+    let mean = faces.iter().map(normal).sum::<Vector>() / faces.iter().map(area).sum::<f64>();
+    mean.norm() > AROUND
 }
 
 /// Where two regions touch.
@@ -99,5 +109,37 @@ fn curvature(model: &Model, at: Point, along: &Vector) -> f64 {
             model.side * turn.dot(&step) / (2.0 * STEP * STEP)
         }
         _ => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Unit;
+    use crate::mesh::{Mesh, Working};
+    use crate::surface::Cylinder;
+
+    /// Quads about the z axis, so many of a ring of 24.
+    fn tube(quads: u32) -> Mesh {
+        let at = |i: u32, z: f64| {
+            let turn = f64::from(i % 24) * std::f64::consts::TAU / 24.0;
+            Point::new(0.3 * turn.cos(), 0.3 * turn.sin(), z)
+        };
+        let positions = (0..=quads).flat_map(|i| [at(i, 0.0), at(i, 0.2)]).collect();
+        let quad = |i: u32| [[2 * i, 2 * i + 2, 2 * i + 1], [2 * i + 1, 2 * i + 2, 2 * i + 3]];
+        Mesh { positions, faces: (0..quads).flat_map(quad).collect() }
+    }
+
+    #[test]
+    fn a_piece_of_a_patch_does_not_go_around() {
+        let axis: Unit = Vector::z_axis();
+        let bore = Surface::Cylinder(Cylinder { point: Point::origin(), axis, radius: 0.3 });
+        for (quads, expected) in [(6, true), (12, true), (24, false)] {
+            let working = Working::new(tube(quads));
+            let scene = Scene::raw(&working);
+            let faces: Vec<u32> = (0..working.len() as u32).collect();
+            let model = Model { surface: bore.clone(), side: 1.0 };
+            assert_eq!(is_piece(&scene, &model, &faces), expected, "{quads}");
+        }
     }
 }

@@ -1,10 +1,13 @@
-//! Planes and cylinders that stand in a known direction or about a known axis: fits of less freedom.
+//! Planes, cylinders and cones that stand in a known direction or about a known axis: fits of less freedom.
 //!
 //! Most surfaces of a part stand along directions that others show, and about axes that others have.
-//! A cylinder along a known direction has three degrees of freedom, not five.
+//! A cylinder along a known direction has three degrees of freedom, not five; a cone about a known axis,
+//! as the chamfers of a bore or of a nut, two, not six.
 
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
+use super::curve::Curve;
+use super::sweep::Sweep;
 use super::{Cylinder, Plane, Surface, axis, direction, start};
 use crate::math::{Point, Unit, frame};
 
@@ -34,7 +37,7 @@ impl Shown {
         }
     }
 
-    /// The nearest planes and cylinders that stand in what is shown.
+    /// The nearest planes, cylinders and cones that stand in what is shown.
     pub fn nearest(&self, points: &[Point]) -> impl Iterator<Item = Surface> {
         let along = self.ways.iter().flat_map(|way| along(points, way));
         along.chain(self.lines.iter().flat_map(|(point, way)| about(points, *point, way)))
@@ -53,6 +56,9 @@ impl Shown {
                 (4.0, self.lines.len())
             }
             Surface::Cylinder(s) if among(is_parallel, s.axis) => (2.0, directions),
+            Surface::Cone(s) if self.lines.iter().any(|l| is_coaxial(l, &(s.apex, s.axis))) => {
+                (4.0, self.lines.len())
+            }
             _ => (0.0, 1),
         }
     }
@@ -98,10 +104,17 @@ fn along(points: &[Point], direction: &Unit) -> impl Iterator<Item = Surface> + 
     [Some(across(points, direction)), wall, bore].into_iter().flatten()
 }
 
-/// The nearest plane across an axis and the nearest cylinder about it.
-fn about(points: &[Point], point: Point, axis: &Unit) -> [Surface; 2] {
-    let radius = mean(points.iter().map(|p| (p - point).cross(axis).norm()));
-    [across(points, axis), Surface::Cylinder(Cylinder { point, axis: *axis, radius })]
+/// The nearest plane across an axis and the nearest cylinder and cone about it.
+fn about(points: &[Point], point: Point, axis: &Unit) -> impl Iterator<Item = Surface> + use<> {
+    let sweep = Sweep::About { point, axis: *axis };
+    let flat: Vec<_> = points.iter().map(|p| sweep.flat(*p)).collect();
+    let radius = mean(flat.iter().map(|p| p.x));
+    let bore = Surface::Cylinder(Cylinder { point, axis: *axis, radius });
+    // A line along the axis or across it is one of the other two.
+    let cone = line(&flat)
+        .and_then(|(normal, offset)| sweep.surface(&Curve::Line { normal, offset }))
+        .filter(|surface| matches!(surface, Surface::Cone(_)));
+    [Some(across(points, axis)), Some(bore), cone].into_iter().flatten()
 }
 
 fn across(points: &[Point], direction: &Unit) -> Surface {
@@ -147,6 +160,7 @@ fn circle(points: &[Vector2<f64>]) -> Option<(Vector2<f64>, f64)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Cone;
     use super::*;
     use crate::math::Vector;
 
@@ -181,6 +195,23 @@ mod tests {
         let top: Vec<_> =
             (0..9).map(|i| Point::from(frame(&axis()).0.into_inner() * f64::from(i))).collect();
         assert!(along(&top, &axis()).any(|s| worst(&s, &top) < 1e-12));
+    }
+
+    #[test]
+    fn a_piece_of_a_cone_about_an_axis_is_found_exactly() {
+        let (apex, half_angle) = (Point::new(0.5, 0.5, 0.2), 0.6);
+        let cone = Surface::Cone(Cone { apex, axis: axis(), half_angle });
+        // What is bent about the axis, laid onto the cone.
+        let onto = |p: Point| {
+            let normal = cone.normal(p).unwrap().into_inner();
+            p - normal * cone.distance(p).unwrap()
+        };
+        let piece: Vec<_> = points(Some(0.2)).into_iter().map(onto).collect();
+        let found = about(&piece, apex, &axis()).find(|s| matches!(s, Surface::Cone(_))).unwrap();
+        assert!(worst(&found, &piece) < 1e-9, "{found:?}");
+        let bores = [0.1, 0.2].map(|radius| Cylinder { point: apex, axis: axis(), radius });
+        let shown = Shown::by(&bores.map(Surface::Cylinder));
+        assert_eq!(shown.held(&found), (4.0, 1));
     }
 
     #[test]
