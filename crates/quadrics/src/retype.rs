@@ -50,12 +50,26 @@ pub fn retype(
             if let Some((new, old)) = found {
                 let confidence = confidence(&new, Some(&old));
                 let runner_up = is_noteworthy(&new, &old).then_some(old.surface);
-                let settled = settled(scene, faces, new.surface, marks);
-                *fit = Recognised { confidence, runner_up, waves: fit.waves, ..settled };
+                let settled = settled(scene, faces, new.surface.clone(), marks);
+                let surface = told(scene, &gathered, &new, &settled);
+                *fit = Recognised { surface, confidence, runner_up, waves: fit.waves, ..settled };
             }
         });
         Ok(())
     })
+}
+
+/// The surface of a new type: a free fit of few noisy vertices leaves the direction or the axis that the
+/// type was told by, unless it is better by more than that is worth.
+fn told(scene: &Scene, gathered: &Gathered, new: &Choice, settled: &Recognised) -> Surface {
+    let price = |surface| related::priced(scene, surface, gathered, scene.evidence);
+    // The inliers say best where on the axis.
+    let placed = scene.shown.nearest(&settled.support);
+    let placed = placed.filter(|other| other.is_like(&new.surface)).map(price);
+    let free = price(settled.surface.clone());
+    let all = placed.chain([new.clone(), free]);
+    let best = all.min_by(|a, b| a.criterion.total_cmp(&b.criterion));
+    best.map_or_else(|| settled.surface.clone(), |best| best.surface)
 }
 
 /// The plane, cylinder or cone of another type that is shown by more than the surface, and the surface, each
