@@ -4,7 +4,7 @@
 use super::assign::Model;
 use super::moves::{LABEL, tidy};
 use super::scene::Scene;
-use super::seams::{Seam, is_piece, seams};
+use super::seams::{Seam, pieces, seams};
 use crate::partition::{Regions, UNLABELLED, join, root};
 use crate::surface::Surface;
 use crate::surface::select;
@@ -63,8 +63,7 @@ pub fn unite(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
             && seam.jump < (JUMP * seam.bend).max(FLAT)
             && seam.jump * area < PIECE * scene.evidence.sigma
     };
-    let piece = |(model, faces): (&Model, &[u32])| is_piece(scene, model, faces);
-    let piece: Vec<bool> = models.iter().zip(regions.iter()).map(piece).collect();
+    let piece = pieces(scene, models, &regions);
     let may_join = |seam: &&Seam| piece[seam.one as usize] && piece[seam.other as usize];
     let mut patch: Vec<u32> = (0..models.len() as u32).collect();
     for seam in seams.iter().filter(may_join).filter(|seam| smooth(seam)) {

@@ -9,7 +9,7 @@ use super::assign::Model;
 use super::merge::merging;
 use super::moves::{LABEL, tidy};
 use super::scene::{Gathered, Marks, Scene};
-use super::seams::{is_piece, seams};
+use super::seams::{pieces, seams};
 use crate::math::{Point, Vector};
 use crate::partition::Regions;
 use crate::surface::Surface;
@@ -73,8 +73,7 @@ impl Pieces {
             select::judge(model.surface.clone(), part.samples(), part.total, evidence).criterion
         };
         let costs = models.iter().zip(&parts).map(cost).collect();
-        let piece = |(model, faces): (&Model, &[u32])| is_piece(scene, model, faces);
-        let piece: Vec<bool> = models.iter().zip(regions.iter()).map(piece).collect();
+        let piece = pieces(scene, models, &regions);
         let mut continued = vec![Vec::new(); models.len()];
         for seam in seams(scene, models, labels) {
             let may_join = piece[seam.one as usize] && piece[seam.other as usize];

@@ -4,13 +4,19 @@ use super::assign::Model;
 use super::scene::Scene;
 use crate::math::{Point, Vector};
 use crate::mesh::NONE;
+use crate::partition::Regions;
 use crate::surface::Surface;
 
 /// Length of the mean normal below which a region goes around: that of three quarters of a cylinder.
 const AROUND: f64 = 0.3;
 
-/// Whether a region may be a piece of a free-form patch: it is curved, but not all the way around.
-pub fn is_piece(scene: &Scene, model: &Model, faces: &[u32]) -> bool {
+/// Whether each region may be a piece of a free-form patch.
+pub fn pieces(scene: &Scene, models: &[Model], regions: &Regions) -> Vec<bool> {
+    models.iter().zip(regions.iter()).map(|(model, faces)| is_piece(scene, model, faces)).collect()
+}
+
+/// It is curved, but not all the way around.
+fn is_piece(scene: &Scene, model: &Model, faces: &[u32]) -> bool {
     if matches!(model.surface, Surface::Plane(_) | Surface::FreeForm) {
         return false;
     }
