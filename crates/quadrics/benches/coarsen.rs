@@ -10,11 +10,11 @@ fn measure(criterion: &mut Criterion) {
     group.sample_size(10);
     for faces in [100_000, 1_000_000] {
         let fine = Working::new(synth::part("demo", faces).expect("the catalogue has it").mesh);
-        let found = coarsen(&fine, faces / 10, 0.0).mesh.faces.len();
+        let found = coarsen(&fine, faces / 10).mesh.faces.len();
         assert!((faces / 20..faces / 5).contains(&found), "{found} faces");
         group.throughput(Throughput::Elements(fine.len() as u64));
         group.bench_with_input(BenchmarkId::from_parameter(faces), &fine, |bencher, fine| {
-            bencher.iter(|| coarsen(fine, faces / 10, 0.0));
+            bencher.iter(|| coarsen(fine, faces / 10));
         });
     }
     group.finish();

@@ -22,7 +22,7 @@ fn main() {
         }
         "repair" => drop(black_box(repair(&mesh))),
         "order" => drop(black_box(in_own_cube(mesh))),
-        "coarsen" => drop(black_box(coarsen(&Working::new(mesh), FACES / 4, 0.0))),
+        "coarsen" => drop(black_box(coarsen(&Working::new(mesh), FACES / 4))),
         "segment" => segmented(&mesh),
         "segment_noisy" => {
             let noise = Noise::uniform(0.005, 0.9);

@@ -10,7 +10,10 @@ use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
 use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, subdivide};
 use crate::recognise::assign::{self, models};
-use crate::recognise::{self, Outcome, carry, evidence, expand, moves, patch, scene::Scene};
+use crate::recognise::means::{Cells, gathered};
+use crate::recognise::{
+    self, Outcome, carry, evidence, expand, moves, patch, scene::Scene, unshown,
+};
 use crate::retype::retype;
 use crate::surface::Surface;
 use crate::surface::related::Shown;
@@ -107,9 +110,13 @@ fn is_too_fine(cube: &Working, scene: &Scene, choice: options::Coarse) -> bool {
 /// On a coarser mesh; then the faces choose among its surfaces.
 fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
     let Task { cube, options, start } = task;
-    let noise = scene.evidence.sigma / scene.edge;
-    let Coarse { mesh, site, origin, averaged } = context.timed("coarsen", |_| {
-        Ok(coarsen(cube, COARSE_FACES.min(cube.len() / FACES_FOR_ONE), noise))
+    let means = scene.evidence.sigma > NOISY * scene.edge;
+    let Coarse { mesh, site, origin } = context.timed("coarsen", |_| {
+        Ok(if means {
+            gathered(cube, scene.evidence.sigma / scene.edge)
+        } else {
+            coarsen(cube, COARSE_FACES.min(cube.len() / FACES_FOR_ONE))
+        })
     })?;
     let working = Working::new(mesh);
     let mut coarse = context.timed("prepare", |_| Ok(Scene::raw(&working)))?;
@@ -120,7 +127,9 @@ fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Out
     let found = default(context, &mut coarse, coarser)?;
     let (mut models, mut labels) = context.timed("carry", |_| {
         scene.grain = (cube.len() / working.len().max(1)).max(1) as u32;
-        if averaged > 1 {
+        if means {
+            let size = site.len() as f64 / working.mesh.positions.len() as f64;
+            scene.cells = Some(Cells { of_vertex: site.clone(), size });
             scene.normals = carry::normals(scene, &coarse, &site).into();
             scene.evidence.normal_sigma = coarse.evidence.normal_sigma;
         } else {
@@ -133,16 +142,19 @@ fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Out
         let labels = &found.labels;
         let labels = carry::carry(scene, &working.adjacency, &site, labels, &mut models);
         let surfaces: Vec<Surface> = models.iter().map(|model| model.surface.clone()).collect();
-        evidence::carried(scene, &surfaces, &labels, averaged > 1);
+        evidence::carried(scene, &surfaces, &labels, means);
         Ok((models, labels))
     })?;
     // What noise hides from means of vertices, single ones do not show.
-    if averaged == 1 && options.regions.is_none() {
+    if !means && options.regions.is_none() {
         context.timed("complete", |context| {
             carry::complete(context, scene, &mut models, &mut labels, is_faceted(cube))
         })?;
     }
     context.timed("settle", |_| {
+        if means && options.regions.is_none() {
+            unshown::drop_unshown(scene, &mut models, &mut labels);
+        }
         carry::settle(scene, &mut models, &mut labels);
         let surfaces: Vec<Surface> = models.into_iter().map(|model| model.surface).collect();
         let parents: Vec<u32> = (0..cube.len() as u32).collect();

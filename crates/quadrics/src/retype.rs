@@ -13,7 +13,7 @@ use crate::recognise::related;
 use crate::recognise::scene::{Gathered, Marks, Scene};
 use crate::surface::Surface;
 use crate::surface::related::Shown;
-use crate::surface::select::Choice;
+use crate::surface::select::{Choice, Evidence};
 
 /// Vertices that the choice looks at.
 const SAMPLES: usize = 400;
@@ -43,15 +43,23 @@ pub fn retype(
         let around = Around { scene, models: &models, labels, regions: &regions };
         fits.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (i, fit)| {
             let faces = regions.faces(i);
-            let gathered = scene.samples(faces, SAMPLES, marks);
-            let blend = scene.noisy().then(|| around.rather(i, &gathered, marks)).flatten();
+            let (gathered, evidence) = scene.means(faces, SAMPLES, marks);
+            // Every vertex counts in the section of a blend: on means there are too many.
+            let single = scene.cells.is_none();
+            let blend =
+                (single && scene.noisy()).then(|| around.rather(i, &gathered, marks)).flatten();
             let blend = blend.filter(|(new, old)| !new.surface.is_like(&old.surface));
-            let found = blend.or_else(|| better(scene, &gathered, &fit.surface));
+            let found = blend.or_else(|| better(scene, &gathered, evidence, &fit.surface));
             if let Some((new, old)) = found {
                 let confidence = confidence(&new, Some(&old));
                 let runner_up = is_noteworthy(&new, &old).then_some(old.surface);
                 let settled = settled(scene, faces, new.surface.clone(), marks);
-                let surface = told(scene, &gathered, &new, &settled);
+                // Means lie off curved surfaces by the sagitta of their cells.
+                let surface = if single {
+                    told(scene, &gathered, &new, &settled)
+                } else {
+                    settled.surface.clone()
+                };
                 *fit = Recognised { surface, confidence, runner_up, waves: fit.waves, ..settled };
             }
         });
@@ -74,16 +82,21 @@ fn told(scene: &Scene, gathered: &Gathered, new: &Choice, settled: &Recognised) 
 
 /// The plane, cylinder or cone of another type that is shown by more than the surface, and the surface, each
 /// with the criterion that they were compared by.
-fn better(scene: &Scene, gathered: &Gathered, surface: &Surface) -> Option<(Choice, Choice)> {
+fn better(
+    scene: &Scene,
+    gathered: &Gathered,
+    evidence: Evidence,
+    surface: &Surface,
+) -> Option<(Choice, Choice)> {
     if matches!(surface, Surface::FreeForm | Surface::Quadric(_)) {
         return None;
     }
     let (like, unlike): (Vec<_>, Vec<_>) =
         scene.shown.nearest(&gathered.points).partition(|new| new.is_like(surface));
     let best = |bound: f64, related: Vec<Surface>| {
-        related::best(scene, gathered, scene.evidence, surface, bound, related.into_iter())
+        related::best(scene, gathered, evidence, surface, bound, related.into_iter())
     };
-    let mut own = related::priced(scene, surface.clone(), gathered, scene.evidence);
+    let mut own = related::priced(scene, surface.clone(), gathered, evidence);
     if let Some(like) = best(own.criterion, like) {
         own.criterion = like.criterion;
     }

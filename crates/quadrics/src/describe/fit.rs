@@ -93,14 +93,14 @@ fn independent(vertices: f64, fraction: f64) -> f64 {
 
 /// All types that fit, the known surface among them, best criterion first.
 fn candidates(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> Vec<Choice> {
-    let gathered = scene.samples(faces, CHOICE, marks);
+    let (gathered, evidence) = scene.means(faces, CHOICE, marks);
     let samples = gathered.samples();
-    let mut choices = select::choose(samples, gathered.total, scene.evidence);
+    let mut choices = select::choose(samples, gathered.total, evidence);
     if matches!(known, Surface::Quadric(_)) {
-        choices.extend(general::choose(samples, gathered.total, scene.evidence));
+        choices.extend(general::choose(samples, gathered.total, evidence));
     }
     if let Some(fit) = refine(known, samples.points, &[]) {
-        choices.push(select::judge(fit.surface, samples, gathered.total, scene.evidence));
+        choices.push(select::judge(fit.surface, samples, gathered.total, evidence));
     }
     choices.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
     choices

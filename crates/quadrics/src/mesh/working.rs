@@ -28,6 +28,16 @@ impl Working {
         self.mesh.faces.len()
     }
 
+    /// Visits the vertices at the other ends of a vertex's edges, each once or twice.
+    pub fn for_each_neighbour(&self, vertex: u32, mut visit: impl FnMut(u32)) {
+        for &face in self.adjacency.around(vertex) {
+            self.mesh.faces[face as usize]
+                .into_iter()
+                .filter(|&v| v != vertex)
+                .for_each(&mut visit);
+        }
+    }
+
     /// Whether there is no face.
     pub fn is_empty(&self) -> bool {
         self.mesh.faces.is_empty()

@@ -3,18 +3,21 @@
 //! Cells of a fixed number of vertices are cut off breadth first; then all their sites spread at
 //! once, so that every vertex joins the nearest by edges. The dual of these cells is the coarser
 //! mesh: a face whose corners lie in three cells becomes the triangle of their sites (as Valette and
-//! Chassery do, Eurographics 2004). Sites are vertices of the input, so the noise stays what it is.
+//! Chassery do, Eurographics 2004).
 //!
-//! Where the noise is as large as the edges, a site moves to the mean of the vertices around it.
+//! Sites are vertices of the input, so the noise stays what it is. Where it is as large as the edges,
+//! cells are made alike, and means of their vertices stand for them.
 //!
 //! Vertices where the surface bends come first: a vertex inside a flat facet, or on an edge between
 //! two, lies on a chord that others span, off the surface that the facets were made from.
 
 use rayon::prelude::*;
 
+use super::nearest::nearest;
+use super::relax::relax;
 use crate::math::{Point, Vector};
 use crate::mesh::{Mesh, Working};
-use crate::partition::{UNLABELLED, components};
+use crate::partition::components;
 
 /// Normals around a vertex that differ more make it a crease, in radians.
 const CREASE: f64 = 0.5;
@@ -34,20 +37,37 @@ pub struct Coarse {
     pub site: Vec<u32>,
     /// A face of the finer mesh in the middle of every face.
     pub origin: Vec<u32>,
-    /// Vertices in the mean that a site stands for: 1 where it is itself.
-    pub averaged: usize,
 }
 
-/// Means of n vertices round a crease by about 0.3 times their radius, an edge times `sqrt(n / 3)`,
-/// and leave `1 / sqrt(n)` of the noise: the two are equal at so many times noise over edge.
-const AVERAGED: f64 = 6.0;
+/// Coarsens a mesh to about so many faces, whose vertices are vertices of the finer one.
+pub fn coarsen(fine: &Working, faces: usize) -> Coarse {
+    let sites = sites(fine, size(fine, faces));
+    let positions = sites.iter().map(|&v| fine.mesh.positions[v as usize]).collect();
+    dual(fine, spread(fine, &sites), positions)
+}
 
-/// Coarsens a mesh to about so many faces; `noise` is that of its vertices over its mean edge.
-pub fn coarsen(fine: &Working, faces: usize, noise: f64) -> Coarse {
-    let size = fine.len().div_ceil(faces.max(1));
-    let averaged = ((AVERAGED * noise) as usize).clamp(1, size);
-    let sites = sites(fine, size);
-    let (site, positions) = spread(fine, &sites, averaged);
+/// Coarsens a noisy mesh to about so many faces, whose vertices are means.
+pub fn gather(fine: &Working, faces: usize) -> Coarse {
+    let sites = sites(fine, size(fine, faces));
+    let mut site = spread(fine, &sites);
+    relax(fine, &mut site, sites.len());
+    let mut sums = vec![(Vector::zeros(), 0.0); sites.len()];
+    for (position, &site) in fine.mesh.positions.iter().zip(&site) {
+        let (sum, count) = &mut sums[site as usize];
+        *sum += position.coords;
+        *count += 1.0;
+    }
+    let positions = sums.into_iter().map(|(sum, count)| Point::from(sum / count)).collect();
+    dual(fine, site, positions)
+}
+
+/// Vertices of a cell where so many faces are left.
+fn size(fine: &Working, faces: usize) -> usize {
+    fine.len().div_ceil(faces.max(1))
+}
+
+/// The triangles of the sites whose cells meet in a face.
+fn dual(fine: &Working, site: Vec<u32>, positions: Vec<Point>) -> Coarse {
     // Cells that meet twice would make the same triangle twice.
     let mut triangles: Vec<([u32; 3], u32)> = Vec::new();
     for (face, corners) in fine.mesh.faces.iter().enumerate() {
@@ -61,7 +81,7 @@ pub fn coarsen(fine: &Working, faces: usize, noise: f64) -> Coarse {
     triangles.sort_unstable();
     triangles.dedup_by_key(|(triangle, _)| *triangle);
     let (faces, origin) = triangles.into_iter().unzip();
-    Coarse { mesh: Mesh { positions, faces }, site, origin, averaged }
+    Coarse { mesh: Mesh { positions, faces }, site, origin }
 }
 
 /// The vertices that stand for cells of `size` vertices, ascending.
@@ -95,7 +115,7 @@ fn cut_off(fine: &Working, site: u32, size: usize, taken: &mut [bool], cell: &mu
     cell.push(site);
     let mut next = 0;
     while next < cell.len() && cell.len() < size {
-        for_each_neighbour(fine, cell[next], |other| {
+        fine.for_each_neighbour(cell[next], |other| {
             if cell.len() < size && !std::mem::replace(&mut taken[other as usize], true) {
                 cell.push(other);
             }
@@ -114,7 +134,7 @@ fn widen(fine: &Working, sites: &[u32], size: usize, taken: &mut [bool]) {
     for _ in 0..radius.round() as usize {
         let mut next = Vec::new();
         for vertex in wave {
-            for_each_neighbour(fine, vertex, |other| {
+            fine.for_each_neighbour(vertex, |other| {
                 if !std::mem::replace(&mut reached[other as usize], true) {
                     taken[other as usize] = true;
                     next.push(other);
@@ -188,7 +208,7 @@ pub fn is_faceted(fine: &Working) -> bool {
     let bent = |vertex: u32| ranks[vertex as usize] == Rank::Bent;
     let alone = |vertex: u32| {
         let mut alone = true;
-        for_each_neighbour(fine, vertex, |other| alone &= !bent(other));
+        fine.for_each_neighbour(vertex, |other| alone &= !bent(other));
         alone
     };
     let meetings: Vec<u32> = (0..ranks.len() as u32).filter(|&v| bent(v)).collect();
@@ -207,41 +227,10 @@ fn kept(fine: &Working, size: usize) -> Vec<bool> {
     kept
 }
 
-/// The place in `sites` of the site that is nearest to every vertex, by edges, and the mean of the
-/// first `averaged` vertices that joined each site.
-fn spread(fine: &Working, sites: &[u32], averaged: usize) -> (Vec<u32>, Vec<Point>) {
-    let mut site = vec![UNLABELLED; fine.mesh.positions.len()];
-    sites.iter().zip(0..).for_each(|(&v, i)| site[v as usize] = i);
-    let mut sums = vec![(Vector::zeros(), 0usize); sites.len()];
-    let mut wave = sites.to_vec();
-    let mut next = Vec::new();
-    while !wave.is_empty() {
-        for &vertex in &wave {
-            let own = site[vertex as usize];
-            let (sum, count) = &mut sums[own as usize];
-            if *count < averaged {
-                *sum += fine.mesh.positions[vertex as usize].coords;
-                *count += 1;
-            }
-            for_each_neighbour(fine, vertex, |other| {
-                if site[other as usize] == UNLABELLED {
-                    site[other as usize] = own;
-                    next.push(other);
-                }
-            });
-        }
-        wave.clear();
-        std::mem::swap(&mut wave, &mut next);
-    }
-    let means = sums.into_iter().map(|(sum, count)| Point::from(sum / count as f64)).collect();
-    (site, means)
-}
-
-/// The vertices at the other ends of a vertex's edges, each once or twice.
-fn for_each_neighbour(fine: &Working, vertex: u32, mut visit: impl FnMut(u32)) {
-    for &face in fine.adjacency.around(vertex) {
-        fine.mesh.faces[face as usize].into_iter().filter(|&v| v != vertex).for_each(&mut visit);
-    }
+/// The place in `sites` of the site that is nearest to every vertex, by edges.
+fn spread(fine: &Working, sites: &[u32]) -> Vec<u32> {
+    let count = fine.mesh.positions.len();
+    nearest(count, sites, |vertex, visit| fine.for_each_neighbour(vertex, visit))
 }
 
 #[cfg(test)]
@@ -253,7 +242,7 @@ mod tests {
     #[test]
     fn a_closed_part_stays_closed_and_keeps_its_area() {
         let fine = Working::new(synth::part("demo", 60_000).unwrap().mesh);
-        let coarse = coarsen(&fine, 6_000, 0.0);
+        let coarse = coarsen(&fine, 6_000);
         let count = coarse.mesh.faces.len();
         assert!((4_000..9_000).contains(&count), "{count} faces");
         let coarse = Working::new(coarse.mesh);
@@ -268,7 +257,7 @@ mod tests {
     #[test]
     fn every_vertex_has_a_site_and_every_face_an_origin_between_its_sites() {
         let fine = Working::new(synth::part("demo", 20_000).unwrap().mesh);
-        let coarse = coarsen(&fine, 3_000, 0.0);
+        let coarse = coarsen(&fine, 3_000);
         assert!(coarse.site.iter().all(|&site| (site as usize) < coarse.mesh.positions.len()));
         for (face, &origin) in coarse.mesh.faces.iter().zip(&coarse.origin) {
             let mut sites = fine.mesh.faces[origin as usize].map(|v| coarse.site[v as usize]);
@@ -277,6 +266,19 @@ mod tests {
             corners.sort_unstable();
             assert_eq!(sites, corners);
         }
+    }
+
+    #[test]
+    fn cells_become_alike_and_none_empty() {
+        let fine = Working::new(synth::part("demo", 60_000).unwrap().mesh);
+        let coarse = gather(&fine, 10_000);
+        let mut sizes = vec![0usize; coarse.mesh.positions.len()];
+        coarse.site.iter().for_each(|&site| sizes[site as usize] += 1);
+        let mean = sizes.iter().sum::<usize>() as f64 / sizes.len() as f64;
+        let variance = sizes.iter().map(|&n| (n as f64 - mean).powi(2)).sum::<f64>();
+        let deviation = (variance / sizes.len() as f64).sqrt();
+        assert!(sizes.iter().all(|&n| n > 0));
+        assert!(deviation < 0.25 * mean, "{mean} +- {deviation}");
     }
 
     #[test]
@@ -292,7 +294,7 @@ mod tests {
     #[test]
     fn small_components_are_kept_as_they_are() {
         let fine = Working::new(synth::part("demo", 2_000).unwrap().mesh);
-        let coarse = coarsen(&fine, 200, 0.0);
+        let coarse = coarsen(&fine, 200);
         assert_eq!(coarse.mesh.faces.len(), fine.len());
     }
 }

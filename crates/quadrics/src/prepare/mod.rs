@@ -3,15 +3,19 @@
 mod axes;
 mod back;
 mod coarsen;
+mod nearest;
 pub mod noise;
 pub mod normals;
 mod order;
+mod place;
+mod relax;
 mod subdivide;
 mod unit_cube;
 
 pub use axes::{Placed, in_own_cube, in_unit_cube};
 pub use back::{Returned, labels_back};
-pub use coarsen::{Coarse, coarsen, is_faceted};
+pub use coarsen::{Coarse, coarsen, gather, is_faceted};
 pub use order::{Ordered, ordered};
+pub use place::place;
 pub use subdivide::{Subdivided, subdivide};
 pub use unit_cube::to_unit_cube;

@@ -131,11 +131,21 @@ fn away(surface: &Surface, point: Point) -> f64 {
     surface.distance(point).map_or(f64::INFINITY, f64::abs)
 }
 
+/// A vertex that is farther from its surface than this share of its region is another one's.
+const MOST: f64 = 0.95;
+
 /// The noise of a mesh whose surfaces are known from a coarser one: its sigma, where that of the
 /// coarser one is of means of its vertices, and whether its neighbours err together.
-pub fn carried(scene: &mut Scene, surfaces: &[Surface], labels: &[u32], averaged: bool) {
+pub fn carried(scene: &mut Scene, surfaces: &[Surface], labels: &[u32], means: bool) {
     let regions = Regions::new(labels);
-    let deviations = distances(scene, surfaces, labels, 0.5).into_iter().map(|d| MEDIAN * d);
+    let deviations: Vec<f64> = if means {
+        // Some vertices may not err at all: the median says nothing of the others.
+        let most = distances(scene, surfaces, labels, MOST);
+        let all: Vec<_> = regions.iter().zip(surfaces).zip(most).collect();
+        all.into_par_iter().map(|((faces, s), most)| deviation(scene, s, faces, most)).collect()
+    } else {
+        distances(scene, surfaces, labels, 0.5).into_iter().map(|d| MEDIAN * d).collect()
+    };
     let hear = |((faces, surface), sigma): ((&[u32], &Surface), f64)| {
         let near = |face: &u32| {
             let corners = scene.mesh.corners(*face as usize);
@@ -149,12 +159,20 @@ pub fn carried(scene: &mut Scene, surfaces: &[Surface], labels: &[u32], averaged
     let known = all.into_par_iter().filter(|row| row.1 > 0.0);
     let mut rows: Vec<Row> = known.filter_map(hear).collect();
     let sigma = quantile(&mut rows, |row| row.sigma).max(ROUNDING);
-    if averaged && !rows.is_empty() {
+    if means && !rows.is_empty() {
         scene.evidence.sigma = sigma;
     }
     if sigma > 2.0 * ROUNDING && quantile(&mut rows, |row| row.correlation) > CORRELATED {
         scene.evidence.independent = INDEPENDENT;
     }
+}
+
+/// Root mean square distance of a region's vertices, each at most `most`.
+fn deviation(scene: &Scene, surface: &Surface, faces: &[u32], most: f64) -> f64 {
+    let heard = faces.iter().step_by((faces.len() / HEARD).max(1));
+    let away = |&face: &u32| away(surface, scene.mesh.corners(face as usize)[0]).min(most);
+    let squares: Vec<f64> = heard.map(|face| away(face).powi(2)).collect();
+    (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
 }
 
 /// Where whole regions scatter by more, in sizes, it is noise and not the facets of some of them.

@@ -11,6 +11,7 @@ pub mod evidence;
 pub mod expand;
 mod free_form;
 mod general;
+pub mod means;
 pub mod merge;
 pub mod moves;
 mod open;
@@ -21,6 +22,7 @@ pub mod related;
 pub mod scene;
 mod seams;
 mod split;
+pub mod unshown;
 
 use rayon::prelude::*;
 

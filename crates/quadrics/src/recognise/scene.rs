@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::means::Cells;
 use crate::math::{Point, Vector};
 use crate::mesh::{Adjacency, Geometry, Mesh, Working};
 use crate::prepare::{noise, normals};
@@ -25,6 +26,8 @@ pub struct Scene<'a> {
     pub edge: f64,
     /// Faces for one of the mesh that surfaces are sought on: 1 where it is this one.
     pub grain: u32,
+    /// Vertices that are taken together, where surfaces are sought on means.
+    pub cells: Option<Cells>,
     /// Directions and axes that the surfaces found so far show; none at first.
     pub shown: Shown,
 }
@@ -73,6 +76,7 @@ impl<'a> Scene<'a> {
             evidence,
             edge,
             grain: 1,
+            cells: None,
             shown: Shown::default(),
         }
     }
@@ -239,7 +243,7 @@ impl Marks {
     }
 
     /// The vertices of some faces, each with the first face that has it, counting their faces.
-    fn vertices_of(&mut self, mesh: &Mesh, faces: &[u32]) -> Vec<(u32, u32)> {
+    pub fn vertices_of(&mut self, mesh: &Mesh, faces: &[u32]) -> Vec<(u32, u32)> {
         self.clear(mesh.positions.len());
         let mut vertices = Vec::with_capacity(faces.len());
         for &face in faces {
