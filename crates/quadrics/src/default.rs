@@ -8,7 +8,7 @@ use crate::impose::{aligned, equalised};
 use crate::mesh::Working;
 use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
-use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, subdivide};
+use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, noise, subdivide};
 use crate::recognise::assign::{self, models};
 use crate::recognise::means::{Cells, gathered};
 use crate::recognise::{
@@ -42,7 +42,7 @@ pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<O
     if cube.len() < FEW_FACES {
         return subdivided(context, scene, task);
     }
-    if context.timed("prepare", |_| Ok(is_too_fine(cube, scene, options.coarse)))? {
+    if context.timed("prepare", |_| Ok(is_too_fine(cube, options.coarse)))? {
         return coarsened(context, scene, task);
     }
     context.timed("prepare", |_| {
@@ -91,18 +91,19 @@ fn subdivided(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Ou
 const COARSE_FACES: usize = 50_000;
 const FACES_FOR_ONE: usize = 2;
 const VERY_LARGE: usize = 2_000_000;
-/// Where sigma is above this share of an edge, faces say less of the surfaces than a coarser mesh.
-const NOISY: f64 = 1.0 / 3.0;
+/// Where half of the faces turn by more against the next, in radians, they say less of the surfaces than
+/// means of their vertices.
+const NOISY: f64 = 0.5;
 
 /// Whether surfaces are better sought on a coarser mesh.
-fn is_too_fine(cube: &Working, scene: &Scene, choice: options::Coarse) -> bool {
+fn is_too_fine(cube: &Working, choice: options::Coarse) -> bool {
     let count = cube.len();
     match choice {
         options::Coarse::Off => false,
         options::Coarse::On => true,
         options::Coarse::Auto if count < FACES_FOR_ONE * COARSE_FACES => false,
         options::Coarse::Auto => {
-            count >= VERY_LARGE || scene.evidence.sigma > NOISY * scene.edge || is_faceted(cube)
+            count >= VERY_LARGE || noise::turn(cube) > NOISY || is_faceted(cube)
         }
     }
 }
@@ -110,7 +111,7 @@ fn is_too_fine(cube: &Working, scene: &Scene, choice: options::Coarse) -> bool {
 /// On a coarser mesh; then the faces choose among its surfaces.
 fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
     let Task { cube, options, start } = task;
-    let means = scene.evidence.sigma > NOISY * scene.edge;
+    let means = noise::turn(cube) > NOISY;
     let Coarse { mesh, site, origin } = context.timed("coarsen", |_| {
         Ok(if means {
             gathered(cube, scene.evidence.sigma / scene.edge)

@@ -16,9 +16,12 @@ const KEEP: f64 = 30.0;
 /// A region that saves so much is not counted to its end.
 const PLENTY: f64 = 1000.0;
 
-/// Hands regions to the surfaces around them until the vertices show every one that is left.
+/// Rounds over all regions: the second and third drop what grew in the first.
+const ROUNDS: usize = 3;
+
+/// Hands regions to the surfaces around them that explain their vertices as well.
 pub fn drop_unshown(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
-    loop {
+    for _ in 0..ROUNDS {
         let regions = Regions::new(labels);
         let mut order: Vec<usize> = (0..regions.len()).collect();
         order.sort_by_key(|&id| regions.faces(id).len());
