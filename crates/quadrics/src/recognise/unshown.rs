@@ -10,8 +10,8 @@ use crate::math::Point;
 use crate::partition::Regions;
 use crate::surface::{Surface, select};
 
-/// What a region must save beside the price of its surface, in nats over its vertices. 10 to 60 give
-/// the same.
+/// What a region must save beside the price of its surface, in nats over its vertices: half of what it
+/// must save over faces, which count every vertex twice. Not scanned.
 const KEEP: f64 = 30.0;
 /// A region that saves so much is not counted to its end.
 const PLENTY: f64 = 1000.0;
