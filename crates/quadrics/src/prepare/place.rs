@@ -61,3 +61,25 @@ impl Cell {
         matrix.try_inverse().map(|inverse| Point::from(inverse * (self.through + MEAN * self.sum)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::coarsen::gather;
+    use super::*;
+    use crate::synth;
+
+    #[test]
+    fn what_means_cut_off_a_box_comes_back() {
+        let fine = Working::new(synth::part("plate", 60_000).unwrap().mesh);
+        let mut coarse = gather(&fine, 6_000);
+        let corner = |points: &[Point]| {
+            points.iter().map(|p| p.coords.sum()).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let corner_of_all = corner(&fine.mesh.positions);
+        let before = corner_of_all - corner(&coarse.mesh.positions);
+        let normals = Working::new(coarse.mesh.clone()).geometry.normals;
+        coarse.mesh.positions = place(&fine, &coarse, &normals);
+        let after = corner_of_all - corner(&coarse.mesh.positions);
+        assert!(after.abs() < 0.5 * before, "{before} off, then {after}");
+    }
+}
