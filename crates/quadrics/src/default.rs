@@ -102,16 +102,19 @@ fn is_too_fine(cube: &Working, choice: options::Coarse) -> bool {
         options::Coarse::Off => false,
         options::Coarse::On => true,
         options::Coarse::Auto if count < FACES_FOR_ONE * COARSE_FACES => false,
-        options::Coarse::Auto => {
-            count >= VERY_LARGE || noise::turn(cube) > NOISY || is_faceted(cube)
-        }
+        options::Coarse::Auto => count >= VERY_LARGE || is_noisy(cube) || is_faceted(cube),
     }
+}
+
+/// Whether single faces say less than means of their vertices.
+fn is_noisy(cube: &Working) -> bool {
+    noise::turn(cube) > NOISY
 }
 
 /// On a coarser mesh; then the faces choose among its surfaces.
 fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
     let Task { cube, options, start } = task;
-    let means = noise::turn(cube) > NOISY;
+    let means = is_noisy(cube);
     let Coarse { mesh, site, origin } = context.timed("coarsen", |_| {
         Ok(if means {
             gathered(cube, scene.evidence.sigma / scene.edge)

@@ -1,6 +1,6 @@
 //! Means of noisy vertices: the coarser mesh that surfaces are sought on, and what regions are judged by.
 
-use super::scene::{Gathered, Marks, Scene};
+use super::scene::{Gathered, Marks, Scene, picked};
 use crate::math::{Point, Vector};
 use crate::mesh::Working;
 use crate::prepare::{Coarse, gather, place};
@@ -82,9 +82,7 @@ impl Scene<'_> {
     fn averaged(&self, groups: &[&[Member]], limit: usize) -> (Gathered, Evidence) {
         let mut gathered = Gathered { total: groups.len(), ..Gathered::default() };
         let mut variance = 0.0;
-        let step = (groups.len() as f64 / limit as f64).max(1.0);
-        let picked = (0..).map(|i| (f64::from(i) * step) as usize);
-        for group in picked.map_while(|i| groups.get(i)) {
+        for group in picked(groups, limit) {
             let count = group.len() as f64;
             let mean =
                 |of: &dyn Fn(&Member) -> Vector| group.iter().map(of).sum::<Vector>() / count;

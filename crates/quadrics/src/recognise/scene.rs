@@ -139,10 +139,8 @@ impl<'a> Scene<'a> {
             }
         }
         let total = vertices.len();
-        let step = (total as f64 / limit as f64).max(1.0);
-        let picked = (0..).map(|i| (f64::from(i) * step) as usize).take_while(|&i| i < total);
         let mut gathered = Gathered { total, ..Gathered::default() };
-        for (vertex, face) in picked.map(|i| vertices[i]) {
+        for &(vertex, face) in picked(&vertices, limit) {
             gathered.points.push(self.mesh.positions[vertex as usize]);
             gathered.barycentres.push(self.geometry.barycentres[face as usize]);
             gathered.normals.push(self.normals[face as usize]);
@@ -165,6 +163,12 @@ impl<'a> Scene<'a> {
     pub fn correlated(&self) -> bool {
         self.evidence.independent < 1.0
     }
+}
+
+/// At most `limit` of a list, evenly spread over it.
+pub(super) fn picked<T>(list: &[T], limit: usize) -> impl Iterator<Item = &T> {
+    let step = (list.len() as f64 / limit as f64).max(1.0);
+    (0..).map_while(move |i| list.get((f64::from(i) * step) as usize))
 }
 
 /// Inner vertices that suffice for a fit.
