@@ -42,8 +42,8 @@ pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<O
     if cube.len() < FEW_FACES {
         return subdivided(context, scene, task);
     }
-    if context.timed("prepare", |_| Ok(is_too_fine(cube, options.coarse)))? {
-        return coarsened(context, scene, task);
+    if let Some(stand) = stand_ins(context, scene, task)? {
+        return coarsened(context, scene, task, stand);
     }
     context.timed("prepare", |_| {
         scene.filter();
@@ -91,30 +91,59 @@ fn subdivided(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Ou
 const COARSE_FACES: usize = 50_000;
 const FACES_FOR_ONE: usize = 2;
 const VERY_LARGE: usize = 2_000_000;
+/// Means of a scan's vertices say more than these from so many faces on: not yet at 120,000, at 240,000
+/// where the mesh breaks into pieces (decision 0006).
+const DENSE_SCAN: usize = 200_000;
 /// Where half of the faces turn by more against the next, in radians, they say less of the surfaces than
 /// means of their vertices.
 const NOISY: f64 = 0.5;
 
-/// Whether surfaces are better sought on a coarser mesh.
-fn is_too_fine(cube: &Working, choice: options::Coarse) -> bool {
-    let count = cube.len();
-    match choice {
-        options::Coarse::Off => false,
-        options::Coarse::On => true,
-        options::Coarse::Auto if count < FACES_FOR_ONE * COARSE_FACES => false,
-        options::Coarse::Auto => count >= VERY_LARGE || is_noisy(cube) || is_faceted(cube),
-    }
+/// What the vertices of a coarser mesh are.
+#[derive(Clone, Copy, PartialEq)]
+enum StandIns {
+    /// Vertices of the mesh itself.
+    Vertices,
+    /// Means of its vertices.
+    Means,
 }
 
-/// Whether single faces say less than means of their vertices.
-fn is_noisy(cube: &Working) -> bool {
-    noise::turn(cube) > NOISY
+/// On which coarser mesh surfaces are better sought, if on one; `scene` learns the noise of a dense scan.
+fn stand_ins(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Option<StandIns>> {
+    let Task { cube, options, .. } = task;
+    let few = cube.len() < FACES_FOR_ONE * COARSE_FACES;
+    let asked = options.coarse == options::Coarse::On;
+    if options.coarse == options::Coarse::Off || (few && !asked) {
+        return Ok(None);
+    }
+    let noisy = context.timed("prepare", |_| Ok(noise::turn(cube) > NOISY))?;
+    if noisy || (cube.len() >= DENSE_SCAN && is_scan(context, scene)?) {
+        return Ok(Some(StandIns::Means));
+    }
+    let too_fine = asked || cube.len() >= VERY_LARGE || is_faceted(cube);
+    Ok(too_fine.then_some(StandIns::Vertices))
+}
+
+/// Whether neighbouring vertices err together, by more than rounding.
+fn is_scan(context: &mut Context, scene: &mut Scene) -> Result<bool> {
+    if scene.evidence.is_quiet() {
+        return Ok(false);
+    }
+    context.timed("noise", |context| {
+        scene.filter();
+        evidence::measure(context, scene)
+    })?;
+    Ok(scene.correlated())
 }
 
 /// On a coarser mesh; then the faces choose among its surfaces.
-fn coarsened(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
+fn coarsened(
+    context: &mut Context,
+    scene: &mut Scene,
+    task: Task,
+    stand: StandIns,
+) -> Result<Outcome> {
     let Task { cube, options, start } = task;
-    let means = is_noisy(cube);
+    let means = stand == StandIns::Means;
     let Coarse { mesh, site, origin } = context.timed("coarsen", |_| {
         Ok(if means {
             gathered(cube, scene.evidence.sigma / scene.edge)

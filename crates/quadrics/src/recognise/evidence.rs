@@ -163,7 +163,9 @@ pub fn carried(scene: &mut Scene, surfaces: &[Surface], labels: &[u32], means: b
         scene.evidence.sigma = sigma;
     }
     if sigma > 2.0 * ROUNDING && quantile(&mut rows, |row| row.correlation) > CORRELATED {
-        scene.evidence.independent = INDEPENDENT;
+        // What is measured on the means of cells holds for the vertices of each together.
+        let together = if means { f64::from(scene.grain) } else { 1.0 };
+        scene.evidence.independent = INDEPENDENT / together;
     }
 }
 

@@ -43,6 +43,9 @@ const FEWEST: usize = 8;
 /// narrow region do not show how it bends.
 const ENOUGH: usize = 15;
 const INNER: f64 = 0.5;
+/// Independent samples in a whole scan, however dense: its waves are as long as before. 160 and 300 give
+/// the same (decision 0006).
+const WAVES: f64 = 200.0;
 
 impl Scene<'_> {
     /// Points and normals that a region is judged by, at most `limit`, and how they err: means over
@@ -53,7 +56,7 @@ impl Scene<'_> {
         {
             return means;
         }
-        (self.samples(faces, limit, seen), self.evidence)
+        (self.samples(faces, limit, seen), self.errors(1.0, 1.0))
     }
 
     fn of_cells(
@@ -76,10 +79,10 @@ impl Scene<'_> {
         if inner.len() >= ENOUGH && inner.len() as f64 >= INNER * groups.len() as f64 {
             groups = inner;
         }
-        (groups.len() >= FEWEST).then(|| self.averaged(&groups, limit))
+        (groups.len() >= FEWEST).then(|| self.averaged(cells, &groups, limit))
     }
 
-    fn averaged(&self, groups: &[&[Member]], limit: usize) -> (Gathered, Evidence) {
+    fn averaged(&self, cells: &Cells, groups: &[&[Member]], limit: usize) -> (Gathered, Evidence) {
         let mut gathered = Gathered { total: groups.len(), ..Gathered::default() };
         let mut variance = 0.0;
         for group in picked(groups, limit) {
@@ -94,7 +97,39 @@ impl Scene<'_> {
             gathered.normals.push(normal.try_normalize(f64::MIN_POSITIVE).unwrap_or(normal));
             variance += 1.0 / count;
         }
-        let sigma = self.evidence.sigma * (variance / gathered.points.len() as f64).sqrt();
-        (gathered, Evidence { sigma, ..self.evidence })
+        let variance = variance / gathered.points.len() as f64;
+        (gathered, self.errors(cells.size, variance))
+    }
+
+    /// How points err of which each stands for so many vertices; independent errors have this share of
+    /// the variance left in it.
+    fn errors(&self, vertices: f64, variance: f64) -> Evidence {
+        if self.correlated() {
+            let seen = WAVES / self.mesh.positions.len() as f64;
+            let independent = vertices * self.evidence.independent.min(seen);
+            return Evidence { independent, ..self.evidence };
+        }
+        Evidence { sigma: self.evidence.sigma * variance.sqrt(), ..self.evidence }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synth;
+
+    #[test]
+    fn a_denser_scan_has_no_more_independent_samples() {
+        let seen = |faces| {
+            let working = Working::new(synth::part("shaft", faces).unwrap().mesh);
+            let mut scene = Scene::raw(&working);
+            scene.evidence.independent = 0.05;
+            let all: Vec<u32> = (0..working.len() as u32).collect();
+            let mut marks = Marks::default();
+            let (gathered, evidence) = scene.means(&all, 100, &mut marks);
+            evidence.samples(gathered.total)
+        };
+        let (sparse, dense) = (seen(20_000), seen(80_000));
+        assert!((dense / sparse - 1.0).abs() < 1e-9, "{sparse}, {dense}");
     }
 }
