@@ -292,7 +292,8 @@ def test_dense_noise_hides_less_than_sparse_noise() -> None:
         noisy = quadrics.synth.noise(part.mesh, sigma=0.005, ratio=0.5)
         result = quadrics.segment(noisy)
         found[faces] = quadrics.evaluate(result, part).f1
-        # Half of the vertices move by up to sigma of the longest side: 0.41 of it on the mean square.
+        # Half of the vertices move by up to sigma of the longest side: 0.41 of it on the mean
+        # square.
         sides = part.mesh.vertices.max(axis=0) - part.mesh.vertices.min(axis=0)
         assert result.noise.position == pytest.approx(0.005 * 0.41 * sides.max(), rel=0.25)
     assert found[240_000] > max(found[15_000], 0.7)
