@@ -123,7 +123,7 @@ fn stand_ins(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Opt
     Ok(too_fine.then_some(StandIns::Vertices))
 }
 
-/// Whether neighbouring vertices err together, by more than rounding.
+/// Whether neighbouring vertices err together; a mesh that is quiet from vertex to vertex is not asked.
 fn is_scan(context: &mut Context, scene: &mut Scene) -> Result<bool> {
     if scene.evidence.is_quiet() {
         return Ok(false);
