@@ -59,6 +59,22 @@ def rod(n: int = 48, m: int = 12, radius: float = 1.0, length: float = 4.0) -> A
     return np.concatenate(points), np.concatenate(faces)
 
 
+def turned(profile: NDArray[np.float64], n: int = 96) -> Arrays:
+    """A closed solid about z by its profile: (radius, height) with the outside on the right."""
+    angle = 2 * np.pi * np.arange(n) / n
+    ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    rows = [np.column_stack([ring * r, np.full(n, h)]) for r, h in profile]
+    poles = np.array([[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]])
+    at, after = np.arange(n), (np.arange(n) + 1) % n
+    faces = []
+    for row in range(len(profile) - 1):
+        a, b = row * n + at, row * n + after
+        faces += [np.column_stack([a, b, b + n]), np.column_stack([a, b + n, a + n])]
+    top, low = (len(profile) - 1) * n, np.full(n, len(profile) * n)
+    faces += [np.column_stack([at, low, after]), np.column_stack([top + at, top + after, low + 1])]
+    return np.concatenate([*rows, poles]), np.concatenate(faces)
+
+
 def weld(points: NDArray[np.float64], faces: NDArray[np.int64]) -> Arrays:
     unique, inverse = np.unique(points.round(12), axis=0, return_inverse=True)
     return unique, inverse.ravel()[faces]

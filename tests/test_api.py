@@ -31,6 +31,7 @@ SURFACES = [
     (quadrics.Cylinder((0, 0, 0), UP, 2.0), (3, 0, 7), 1.0, (2, 0, 7)),
     (quadrics.Cone((0, 0, 0), UP, 45.0), (0, 2, 0), 2**0.5, (0, 1, 1)),
     (quadrics.Torus((0, 0, 0), UP, 3.0, 1.0), (5, 0, 0), 1.0, (4, 0, 0)),
+    (quadrics.Torus((0, 0, 0), UP, 3.0, 5.0, inner=True), (4, 0, 0), 2.0, (2, 0, 0)),
     (Quadric((-4, 0, 0, 0, 1, 0, 0, 1, 0, 1), "ellipsoid"), (0, 5, 0), 3.0, (0, 2, 0)),
 ]
 
@@ -305,3 +306,31 @@ def test_a_coarser_mesh_leads_to_the_same_regions() -> None:
     whole = quadrics.segment(part.mesh, coarse="off")
     assert quadrics.evaluate(coarse, whole).hamming < 0.01
     assert quadrics.evaluate(coarse, part).f1 == quadrics.evaluate(whole, part).f1 == 1.0
+
+
+def test_a_crowned_roller_with_a_domed_end_is_both_sheets_of_tori() -> None:
+    def arc(
+        center: tuple[float, float], radius: float, turn: tuple[float, float]
+    ) -> "np.ndarray[Any, Any]":
+        angle = np.radians(np.linspace(*turn, 40))
+        return np.asarray(center) + radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+    crown = arc((-30.0, 0.0), 50.0, (-20.0, 20.0))
+    edge = crown[-1]
+    steep = np.degrees(np.arccos((edge[0] - 6.0) / 20.0))
+    dome = arc((6.0, edge[1] - 20.0 * np.sin(np.radians(steep))), 20.0, (steep, 90.0))
+    flat = np.linspace(0.0, 1.0, 8)[1:-1, None]
+    low = np.column_stack([flat * crown[0, 0], np.full(6, crown[0, 1])])
+    top = np.column_stack([flat[::-1] * 6.0, np.full(6, dome[-1, 1])])
+    found = quadrics.segment(meshes.turned(np.concatenate([low, crown, dome[1:], top])))
+
+    tori = [
+        region.surface for region in found.regions if isinstance(region.surface, quadrics.Torus)
+    ]
+    assert [region.surface.type for region in found.regions].count("plane") == 2
+    assert len(tori) == 2 and len(found.regions) == 4
+    crowned, domed = sorted(tori, key=lambda torus: -torus.minor_radius)
+    assert (crowned.major_radius, crowned.minor_radius) == pytest.approx((30, 50), rel=1e-4)
+    assert (domed.major_radius, domed.minor_radius) == pytest.approx((6, 20), rel=1e-4)
+    assert crowned.inner
+    assert not domed.inner

@@ -133,7 +133,7 @@ def _flat(kind: str, parameters: Mapping[str, Any]) -> Flat | None:
             continue
         if isinstance(surface, Plane) and (length := float(np.linalg.norm(numbers[:3]))) > 0:
             numbers = [number / length for number in numbers]
-        sizes = {"plane": 4, "sphere": 4, "cylinder": 7, "cone": 7, "torus": 8, "quadric": 10}
+        sizes = {"plane": 4, "sphere": 4, "cylinder": 7, "cone": 7, "torus": 9, "quadric": 10}
         if len(numbers) == sizes[name] and bool(np.isfinite(numbers).all()):
             return name, numbers
     return None

@@ -132,13 +132,25 @@ class Cone(AnalyticSurface):
 
 @dataclass(frozen=True, repr=False)
 class Torus(AnalyticSurface):
-    """The points at distance `minor_radius` from a circle of `major_radius` about `axis`."""
+    """The points at distance `minor_radius` from a circle of `major_radius` about `axis`.
+
+    Where `minor_radius` is the larger one the torus cuts itself, and `inner` tells of which of its
+    two sheets the surface is: the one like an apple, or the one like a lemon within it (barrel
+    rollers, crowned pulleys), whose points are `minor_radius` from the far side of the circle.
+    """
 
     center: Vector
     axis: Vector
     major_radius: float
     minor_radius: float
+    inner: bool = False
     type: ClassVar[str] = "torus"
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """Parameters by their names in the result files; `inner` only where it is true."""
+        values = super().parameters
+        return values if self.inner else {k: v for k, v in values.items() if k != "inner"}
 
 
 @dataclass(frozen=True, repr=False)

@@ -44,8 +44,11 @@ pub fn describe<'py>(
         Surface::Torus(s) => {
             dict.set_item("center", point(&s.center))?;
             dict.set_item("axis", vector(&s.axis))?;
-            dict.set_item("major_radius", s.major_radius)?;
+            dict.set_item("major_radius", s.major_radius.abs())?;
             dict.set_item("minor_radius", s.minor_radius)?;
+            if s.major_radius < 0.0 {
+                dict.set_item("inner", true)?;
+            }
         }
         Surface::Quadric(s) => describe_quadric(&dict, s, size)?,
         Surface::FreeForm => {}
@@ -85,10 +88,10 @@ pub fn build(kind: &str, numbers: &[f64]) -> PyResult<Surface> {
         ("cone", 7) => {
             Surface::Cone(Cone { apex: at(0), axis: unit(3), half_angle: numbers[6].to_radians() })
         }
-        ("torus", 8) => Surface::Torus(Torus {
+        ("torus", 9) => Surface::Torus(Torus {
             center: at(0),
             axis: unit(3),
-            major_radius: numbers[6],
+            major_radius: if numbers[8] == 0.0 { numbers[6] } else { -numbers[6] },
             minor_radius: numbers[7],
         }),
         ("quadric", 10) => {

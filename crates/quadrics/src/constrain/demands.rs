@@ -17,6 +17,14 @@ pub struct Demands {
     pub grid: Grid,
 }
 
+impl Demands {
+    /// Whether a region is named by a relation or a parameter.
+    pub fn mention(&self, region: usize) -> bool {
+        self.relations.iter().any(|demand| demand.regions.contains(&region))
+            || self.fixed.iter().any(|fixed| fixed.region == region)
+    }
+}
+
 /// A relation that must, or must not, be there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Demand {

@@ -59,7 +59,9 @@ impl Size {
         match (self, surface) {
             (Self::Radius, Surface::Cylinder(s)) => Some(s.radius),
             (Self::Radius, Surface::Sphere(s)) => Some(s.radius),
-            (Self::MajorRadius, Surface::Torus(s)) => Some(s.major_radius),
+            (Self::MajorRadius, Surface::Torus(s)) => {
+                (s.major_radius > 0.0).then_some(s.major_radius)
+            }
             (Self::MinorRadius, Surface::Torus(s)) => Some(s.minor_radius),
             (Self::HalfAngle, Surface::Cone(s)) => Some(s.half_angle),
             (Self::Offset, Surface::Plane(s)) => Some(s.offset),

@@ -325,7 +325,8 @@ impl Local<7> for LocalTorus {
         let minor_radius = self.torus.minor_radius + step[6];
         radius_of(1.0 / minor_radius)?;
         radius_of(1.0 / major_radius)?;
-        (major_radius > 0.0 && minor_radius > 0.0)
+        // From one sheet to the other leads a sphere, which is another type.
+        (major_radius * self.torus.major_radius > 0.0 && minor_radius > 0.0)
             .then(|| Self::new(&Torus { center, axis, major_radius, minor_radius }))
     }
 }

@@ -46,6 +46,19 @@ fn exact_points_give_the_exact_surface() {
             major_radius: 0.5,
             minor_radius: 0.15,
         }),
+        // Both sheets of tori that cut themselves.
+        Surface::Torus(Torus {
+            center: Point::new(0.5, 0.2, 0.2),
+            axis,
+            major_radius: 0.2,
+            minor_radius: 0.5,
+        }),
+        Surface::Torus(Torus {
+            center: Point::new(0.5, 0.2, 0.2),
+            axis,
+            major_radius: -0.3,
+            minor_radius: 0.9,
+        }),
     ];
     for truth in truth {
         let (points, normals) = patch(&truth);
@@ -59,7 +72,11 @@ fn exact_points_give_the_exact_surface() {
             Surface::Cone(_) => {
                 start::axes(samples).iter().filter_map(|a| start::cone(samples, a)).collect()
             }
-            _ => start::axes(samples).iter().filter_map(|a| start::torus(samples, a)).collect(),
+            _ => {
+                let tori = start::axes(samples);
+                let tori = tori.iter().filter_map(|a| start::torus(samples, a));
+                tori.map(Surface::Torus).collect()
+            }
         };
         let best = starts
             .iter()

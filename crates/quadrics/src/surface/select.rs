@@ -7,7 +7,7 @@
 use super::family::Family;
 use super::start::{self, Samples};
 use super::tube::tori;
-use super::{Shape, Surface, general, refine_within};
+use super::{Shape, Surface, Torus, general, refine_within};
 use crate::math::Point;
 
 /// What is known of the noise.
@@ -161,6 +161,9 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     }
     if best > bound(8.0) && samples.points.len() >= 10 {
         let turned = axes.iter().filter_map(|axis| start::torus(samples, axis));
+        // A sheet of a torus that cuts itself is told from a sphere or a cylinder on a clean mesh only.
+        let sheeted = |torus: &Torus| evidence.general || torus.major_radius > 0.0;
+        let turned = turned.filter(sheeted).map(Surface::Torus);
         // Under noise curvatures say little, and a probe that may bend mistakes its neighbours for noise.
         let bent = evidence.is_quiet().then(|| tori(samples)).into_iter().flatten();
         if let Some(torus) = best_of(turned.chain(bent), samples) {
@@ -212,7 +215,9 @@ pub fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> boo
                     < samples.points.len()
         }
         Surface::Torus(s) => {
-            s.major_radius < LARGEST_RADIUS && s.minor_radius < s.major_radius * 1.02
+            let ring = s.minor_radius < s.major_radius * 1.02;
+            s.major_radius.abs() < LARGEST_RADIUS
+                && (ring || (evidence.general && s.minor_radius < LARGEST_RADIUS))
         }
         _ => true,
     };

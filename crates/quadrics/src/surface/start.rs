@@ -215,16 +215,11 @@ pub fn cone(samples: Samples, axis: &Unit) -> Option<Surface> {
 }
 
 /// The torus of a known axis direction: the profile is a circle.
-pub fn torus(samples: Samples, axis: &Unit) -> Option<Surface> {
+pub fn torus(samples: Samples, axis: &Unit) -> Option<Torus> {
     let on_axis = axis_point(samples, axis)?;
     let (c, minor_radius) = circle(profile(samples, axis, on_axis))?;
     let center = on_axis + axis.into_inner() * c.x;
-    (c.y > 0.0).then_some(Surface::Torus(Torus {
-        center,
-        axis: *axis,
-        major_radius: c.y,
-        minor_radius,
-    }))
+    Some(Torus { center, axis: *axis, major_radius: c.y, minor_radius })
 }
 
 /// The general quadric of Taubin's fit (1991): least `Σ f²` at `Σ |∇f|² = 1`.

@@ -21,6 +21,8 @@ fn shapes() -> Vec<Surface> {
         // Its apex lies outside the points: there a cone has no normal.
         Surface::Cone(Cone { apex: center - axis.into_inner() * 2.0, axis, half_angle: 0.5 }),
         Surface::Torus(Torus { center, axis, major_radius: 0.6, minor_radius: 0.2 }),
+        // Its tips lie outside the points.
+        Surface::Torus(Torus { center, axis, major_radius: -3.0, minor_radius: 4.0 }),
         Surface::Quadric(Quadric::about(center, -1.0, form(4.0, 9.0, 2.0))),
         Surface::Quadric(Quadric::about(center, -1.0, form(4.0, 9.0, -2.0))),
         Surface::Quadric(Quadric::from_parts(0.1, axis.into_inner(), form(2.0, 0.5, 0.0))),

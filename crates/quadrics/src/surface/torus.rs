@@ -3,14 +3,16 @@
 use super::Shape;
 use crate::math::{Point, Similarity, Unit, Vector};
 
-/// The points at one distance from a circle, the spine.
+/// The points at one distance from a circle, the spine. A torus whose spine is narrower than that cuts
+/// itself and has two sheets: the outer one is told by a positive radius of the spine, the inner one, a
+/// lemon about the axis (barrel rollers, crowned pulleys), by a negative one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Torus {
     /// Centre of the spine.
     pub center: Point,
     /// Normal of the spine's plane.
     pub axis: Unit,
-    /// Radius of the spine, positive.
+    /// Radius of the spine; negative for the inner sheet.
     pub major_radius: f64,
     /// Distance of the surface from the spine, positive.
     pub minor_radius: f64,
