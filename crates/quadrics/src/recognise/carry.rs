@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::assign::{self, Model, face_cost};
 use super::scene::Scene;
-use super::{detect, evidence, expand, merge, moves};
+use super::detect::{self, Growth};
+use super::{evidence, expand, merge, moves};
 use crate::context::Context;
 use crate::error::Result;
 use crate::math::Vector;
@@ -78,7 +79,7 @@ pub fn complete(
             *label = UNLABELLED;
         }
     }
-    let found = detect::explain(context, scene, labels, models.len() as u32, 1.0)?;
+    let found = detect::explain(context, scene, labels, Growth::Within, models.len() as u32, 1.0)?;
     let found = found.unwrap_or_default();
     let nothing = found.is_empty();
     models.extend(found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }));

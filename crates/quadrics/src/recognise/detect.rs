@@ -20,8 +20,10 @@ const BALLS: [usize; 5] = [14, 30, 70, 180, 450];
 const SHOWS: usize = 70;
 /// Seeds that compete for being accepted first.
 const BATCH: usize = 12;
-/// Adjacent faces whose normals differ more are not in one neighbourhood, in radians.
+/// Adjacent faces whose normals differ more are not in one neighbourhood, in radians; those of bores of six
+/// to eight vertices around do, those of a socket of six sides by yet more.
 pub const CREASE: f64 = 0.6;
+const CREASE_COARSE: f64 = 1.0;
 /// Faces within so many sigmas belong to a growing region. Waviness and rounded edges make the
 /// residuals of a scan heavy-tailed: less cuts its regions to pieces.
 const REACH: f64 = 2.5;
@@ -29,6 +31,7 @@ const REACH_SCAN: f64 = 4.0;
 /// Facets of a curved surface may turn away from it by so much, in radians. Those of small bores do by
 /// more than 0.2; on clean meshes positions tell where the surface ends (decision 0002).
 const FACETS: f64 = 0.3;
+const FACETS_COARSE: f64 = 0.55;
 const FACETS_NOISY: f64 = 0.2;
 /// Vertices that a fit looks at while growing.
 const SAMPLES: usize = 120;
@@ -81,6 +84,8 @@ pub enum Growth {
     Over,
     /// While only noise is left, not over faces that others explain.
     Within,
+    /// The same where facets turn by more than those of fine surfaces do: what is left of a clean mesh.
+    Coarse,
     /// Past what the noise explains: what is taken in shows how large the noise is.
     Loose,
 }
@@ -105,8 +110,17 @@ pub fn detect(
     share: f64,
 ) -> Result<Option<(Labels, Vec<Candidate>)>> {
     let mut labels = vec![UNLABELLED; scene.mesh.faces.len()];
-    let found = explain(context, scene, &mut labels, 0, share)?;
-    Ok(found.map(|found| (labels, found)))
+    // On a clean mesh neighbours take nothing that is not theirs.
+    let growth = if scene.noisy() { Growth::Over } else { Growth::Within };
+    let Some(mut found) = explain(context, scene, &mut labels, growth, 0, share)? else {
+        return Ok(None);
+    };
+    if scene.evidence.general {
+        let first = found.len() as u32;
+        let coarse = explain(context, scene, &mut labels, Growth::Coarse, first, 1.0)?;
+        found.extend(coarse.into_iter().flatten());
+    }
+    Ok(Some((labels, found)))
 }
 
 /// The same for the faces that have no label yet; labels of what is found count from `first`.
@@ -117,6 +131,7 @@ pub fn explain(
     context: &mut Context,
     scene: &Scene,
     labels: &mut [u32],
+    growth: Growth,
     first: u32,
     share: f64,
 ) -> Result<Option<Vec<Candidate>>> {
@@ -124,9 +139,6 @@ pub fn explain(
     let pool = Pool::default();
     let cost = |&label: &u32| if label == UNLABELLED { UNEXPLAINED } else { 0.0 };
     let mut costs: Vec<f64> = labels.iter().map(cost).collect();
-    // On a clean mesh neighbours take nothing that is not theirs; what is labelled from the start stays.
-    let bare = labels.iter().all(|&label| label == UNLABELLED);
-    let growth = if bare && scene.noisy() { Growth::Over } else { Growth::Within };
     let mut waiting = Waiting::new(labels);
     let total = waiting.open.len().max(1) as f64;
     while !waiting.open.is_empty() {
@@ -203,7 +215,7 @@ pub fn propose(
     // For every type the largest neighbourhood that it explains.
     let mut starts: Vec<Candidate> = Vec::new();
     for size in BALLS {
-        let ball = neighbourhood(scene, seed, size, labels, &mut work.faces);
+        let ball = neighbourhood(scene, seed, size, labels, growth, &mut work.faces);
         if ball.len() * 2 < size && !starts.is_empty() {
             break;
         }
@@ -235,9 +247,11 @@ fn neighbourhood(
     seed: u32,
     size: usize,
     labels: &[u32],
+    growth: Growth,
     seen: &mut Marks,
 ) -> Vec<u32> {
-    let limit = CREASE.cos();
+    let crease = if growth == Growth::Coarse { CREASE_COARSE } else { CREASE };
+    let limit = crease.cos();
     seen.clear(labels.len());
     seen.mark(seed);
     let mut ball = vec![seed];
@@ -356,7 +370,11 @@ fn inliers_of<S: Shape>(
 ) -> Vec<u32> {
     let reach = if scene.correlated() { REACH_SCAN } else { REACH };
     let near = (reach * scene.evidence.sigma).powi(2);
-    let facets = if scene.evidence.general { FACETS } else { FACETS_NOISY };
+    let facets = match growth {
+        Growth::Coarse => FACETS_COARSE,
+        _ if scene.evidence.general => FACETS,
+        _ => FACETS_NOISY,
+    };
     let turn = (REACH * scene.evidence.normal_sigma).max(facets).powi(2);
     let limit = if growth == Growth::Loose { LOOSE } else { usize::MAX };
     let explains = |face: usize| {

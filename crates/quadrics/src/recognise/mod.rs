@@ -9,6 +9,7 @@ mod cut;
 pub mod detect;
 pub mod evidence;
 pub mod expand;
+mod facets;
 mod free_form;
 mod general;
 pub mod means;
@@ -208,6 +209,9 @@ fn start(context: &mut Context, scene: &mut Scene) -> Result<(Labels, Vec<Model>
 fn hand_out(scene: &Scene, mut labels: Labels, found: Vec<Candidate>) -> (Labels, Vec<Model>) {
     let mut models: Vec<Model> =
         found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }).collect();
+    if scene.evidence.general {
+        facets::add(scene, &mut models, &mut labels);
+    }
     let rest = free_form::rest(scene, &labels);
     let marks: Vec<u32> = rest.iter().map(|&rest| u32::from(rest)).collect();
     let (component, sizes) = components(&marks, scene.adjacency);
