@@ -198,6 +198,11 @@ impl<'s, 'm> Merger<'s, 'm> {
                         gain = gain.min(-loss);
                     }
                 }
+                // A large facet and a fillet have all of their vertices on one torus, but not their faces.
+                if self.scene.evidence.general && gain > CHANGE_ELSE {
+                    let agrees = |id: u32| self.agrees(id, &choice.surface);
+                    gain = if agrees(a) && agrees(b) { gain } else { f64::NEG_INFINITY };
+                }
                 let alike = |id: u32| models[id as usize].surface.is_like(&choice.surface);
                 if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {
                     gain = gain.max(0.0);
@@ -206,6 +211,13 @@ impl<'s, 'm> Merger<'s, 'm> {
             })
             .collect();
         self.unions.extend(unknown.into_iter().zip(judged));
+    }
+
+    /// Whether the faces of a region lie as a surface does.
+    fn agrees(&self, id: u32, surface: &Surface) -> bool {
+        let faces = &self.faces[id as usize];
+        let gathered = self.pool.with(|marks| self.scene.samples(faces, SAMPLES, marks));
+        select::agreement(surface, gathered.samples()) > select::AGREEMENT
     }
 
     fn joined(&self, a: u32, b: u32) -> Vec<u32> {

@@ -62,7 +62,7 @@ pub(super) const LARGEST_RADIUS: f64 = 5.0;
 const HALF_ANGLES: (f64, f64) = (0.3, 88.0);
 /// Least mean cosine between the normals of the samples and of the surface on a clean mesh: many
 /// surfaces fit the two rows of vertices of a narrow strip.
-const AGREEMENT: f64 = 0.85;
+pub const AGREEMENT: f64 = 0.85;
 /// Least share by which the normals on one side outnumber the others. On narrow bands filtered
 /// normals turn by any angle; only surfaces that run through the cloud must go.
 const ONE_SIDED: f64 = 0.3;
