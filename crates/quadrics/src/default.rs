@@ -39,7 +39,7 @@ const PIECE: u32 = 40;
 /// Cancellation, or a mesh that cannot be cut.
 pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Outcome> {
     let Task { cube, options, start } = task;
-    if cube.len() < FEW_FACES {
+    if cube.len() < FEW_FACES && !scene.tessellated {
         return subdivided(context, scene, task);
     }
     if let Some(stand) = stand_ins(context, scene, task)? {

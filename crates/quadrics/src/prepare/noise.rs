@@ -20,9 +20,6 @@ const QUANTILE_OF_NOISE: f64 = 0.88;
 /// Standard deviation of the vertices across the surface, at the scale of a few edges, in the unit
 /// of the mesh.
 pub fn position(mesh: &Mesh, adjacency: &Adjacency) -> f64 {
-    if is_tessellated(mesh, adjacency) {
-        return 0.0;
-    }
     let step = (mesh.positions.len() / NEIGHBOURHOODS).max(1);
     let mut residuals: Vec<f64> = (0..mesh.positions.len())
         .step_by(step)
@@ -40,15 +37,15 @@ pub fn position(mesh: &Mesh, adjacency: &Adjacency) -> f64 {
 /// Faces of an exact mesh lie in the plane of the next within so much of the size: files carry five to seven
 /// digits.
 const ROUNDING: f64 = 1e-5;
-/// In a tessellation more than this share of the edges are within planes (one half; 0.05 and less where half
+/// In a tessellation more than this share of the edges are within planes (0.2 to 0.5; 0.05 and less where half
 /// of the vertices err), and fewer than this share of the vertices (none; a fifth where a mesh was made to be
-/// computed on).
-const EDGES: f64 = 0.25;
+/// computed on; where so few are left by noise, it leaves a tenth of the edges).
+const EDGES: f64 = 0.15;
 const VERTICES_WITHIN: f64 = 0.02;
 
 /// Whether a mesh of the size 1 is what CAD programs write: exact, and without a vertex within a plane, so that
 /// no neighbourhood shows that it is.
-fn is_tessellated(mesh: &Mesh, adjacency: &Adjacency) -> bool {
+pub fn is_tessellated(mesh: &Mesh, adjacency: &Adjacency) -> bool {
     let step = (mesh.faces.len() / TURNS).max(1);
     let (mut within, mut edges) = (0usize, 0usize);
     let (mut inner, mut vertices) = (0usize, 0usize);

@@ -14,8 +14,9 @@ use crate::surface::select::{self, Choice};
 use crate::surface::{Shape, Surface, refine_within};
 
 /// Neighbourhood sizes in faces. A fit needs about a dozen vertices to mean anything, and a large
-/// neighbourhood is worth trying only where the smaller one was one surface.
-const BALLS: [usize; 5] = [14, 30, 70, 180, 450];
+/// neighbourhood is worth trying only where the smaller one was one surface. The vertices of a tessellation
+/// are exact: there the first is tried too, for fillets of few facets between planes.
+const BALLS: [usize; 6] = [8, 14, 30, 70, 180, 450];
 /// Neighbourhoods of fewer faces may be too small for the surface they lie on.
 const SHOWS: usize = 70;
 /// Seeds that compete for being accepted first.
@@ -43,6 +44,8 @@ const UNEXPLAINED: f64 = 12.0;
 const KEPT: f64 = 0.9;
 /// Faces that tell how large the noise is: a region that has so many grows no further for that.
 const LOOSE: usize = 20_000;
+/// Times as far off as half of the others that the middle of a facet may lie.
+const STRANGE: f64 = 10.0;
 /// Most refits of a growing region.
 const REFITS: usize = 8;
 
@@ -58,6 +61,21 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    /// Leaves out faces whose middles lie much further off than those of the others: all facets of a curved
+    /// surface are about as fine, and the corners of a plane beside it lie on many a torus.
+    fn drop_strangers(&mut self, scene: &Scene) {
+        let off = |&face: &u32| {
+            let middle = scene.geometry.barycentres[face as usize];
+            self.choice.surface.distance(middle).map_or(f64::INFINITY, f64::abs)
+        };
+        let distances: Vec<f64> = self.faces.iter().map(off).collect();
+        let mut sorted = distances.clone();
+        let (_, median, _) = sorted.select_nth_unstable_by(distances.len() / 2, f64::total_cmp);
+        let most = STRANGE * median.max(scene.evidence.sigma);
+        let mut distances = distances.into_iter();
+        self.faces.retain(|_| distances.next().is_some_and(|distance| distance <= most));
+    }
+
     /// What each of the faces costs.
     fn costs(&self, scene: &Scene) -> Vec<f64> {
         let model = Model { surface: self.choice.surface.clone(), side: self.side };
@@ -214,7 +232,7 @@ pub fn propose(
 ) -> Option<Candidate> {
     // For every type the largest neighbourhood that it explains.
     let mut starts: Vec<Candidate> = Vec::new();
-    for size in BALLS {
+    for size in BALLS.into_iter().skip(usize::from(!scene.tessellated)) {
         let ball = neighbourhood(scene, seed, size, labels, growth, &mut work.faces);
         if ball.len() * 2 < size && !starts.is_empty() {
             break;
@@ -238,6 +256,9 @@ pub fn propose(
         starts.into_iter().filter_map(|start| grow(scene, start, true, labels, growth, work));
     let mut grown: Vec<Candidate> = locked.collect();
     grown.extend(free.and_then(|start| grow(scene, start, false, labels, growth, work)));
+    if scene.tessellated {
+        grown.iter_mut().for_each(|candidate| candidate.drop_strangers(scene));
+    }
     grown.into_iter().max_by(|a, b| a.worth().total_cmp(&b.worth()))
 }
 

@@ -52,6 +52,9 @@ struct Row {
 /// # Errors
 /// Cancellation.
 pub fn measure(context: &mut Context, scene: &mut Scene) -> Result<()> {
+    if scene.tessellated {
+        return Ok(());
+    }
     let local = scene.evidence.sigma;
     let expected = scene.evidence.normal_sigma;
     let mut correlated = false;

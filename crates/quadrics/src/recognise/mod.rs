@@ -197,7 +197,8 @@ const UNEXPLAINED: f64 = 0.1;
 fn start(context: &mut Context, scene: &mut Scene) -> Result<(Labels, Vec<Model>)> {
     loop {
         let coarsest = scene.evidence.sigma >= evidence::COARSEST;
-        let share = if coarsest || scene.correlated() { 1.0 } else { UNEXPLAINED };
+        let exact = coarsest || scene.correlated() || scene.tessellated;
+        let share = if exact { 1.0 } else { UNEXPLAINED };
         match context.timed("detect", |context| detect::detect(context, scene, share))? {
             Some((labels, found)) => return Ok(hand_out(scene, labels, found)),
             None => context.timed("noise", |context| evidence::coarsen(context, scene))?,

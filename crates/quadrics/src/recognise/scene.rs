@@ -24,6 +24,8 @@ pub struct Scene<'a> {
     pub evidence: Evidence,
     /// Mean edge length.
     pub edge: f64,
+    /// Whether the mesh is what CAD programs write: exact, and without vertices within planes.
+    pub tessellated: bool,
     /// Faces for one of the mesh that surfaces are sought on: 1 where it is this one.
     pub grain: u32,
     /// Vertices that are taken together, where surfaces are sought on means.
@@ -61,7 +63,9 @@ impl<'a> Scene<'a> {
     /// Looks at a mesh and leaves its normals as they are.
     pub fn raw(working: &'a Working) -> Self {
         let Working { mesh, geometry, adjacency } = working;
-        let sigma = noise::position(mesh, adjacency).max(ROUNDING);
+        let tessellated = noise::is_tessellated(mesh, adjacency);
+        let known = if tessellated { 0.0 } else { noise::position(mesh, adjacency) };
+        let sigma = known.max(ROUNDING);
         let area = geometry.areas.iter().sum::<f64>() / geometry.areas.len().max(1) as f64;
         // The edge of an equilateral triangle of mean area.
         let edge = (area * 4.0 / 3f64.sqrt()).sqrt();
@@ -75,6 +79,7 @@ impl<'a> Scene<'a> {
             normals,
             evidence,
             edge,
+            tessellated,
             grain: 1,
             cells: None,
             shown: Shown::default(),
