@@ -54,8 +54,11 @@ pub fn is_tessellated(mesh: &Mesh, adjacency: &Adjacency) -> bool {
         within += adjacency.across(face).filter(|&other| coplanar(other)).count();
         edges += adjacency.across(face).count();
         let around = adjacency.around(mesh.faces[face][0]);
-        inner += usize::from(around.iter().all(|&other| coplanar(other as usize)));
-        vertices += 1;
+        // Where the mesh ends, the faces of one plane are often all there is.
+        if around.iter().all(|&other| adjacency.across(other as usize).count() == 3) {
+            inner += usize::from(around.iter().all(|&other| coplanar(other as usize)));
+            vertices += 1;
+        }
     }
     within as f64 > EDGES * edges as f64 && (inner as f64) < VERTICES_WITHIN * vertices as f64
 }

@@ -4,6 +4,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 
 use super::assign::{Model, face_cost, side_of};
+use super::facets;
 use super::open::Waiting;
 use super::pool::Pool;
 use super::scene::{Marks, Scene};
@@ -36,8 +37,9 @@ const FACETS_COARSE: f64 = 0.55;
 const FACETS_NOISY: f64 = 0.2;
 /// Vertices that a fit looks at while growing.
 const SAMPLES: usize = 120;
-/// Fewest faces of a region.
+/// Fewest faces of a region; of a tessellation three times two.
 pub const FEWEST: usize = 10;
+const FEWEST_EXACT: usize = 6;
 /// What a face costs that no surface explains, in nats (8 is as good).
 const UNEXPLAINED: f64 = 12.0;
 /// A candidate is accepted while this share of what it saved is left by those before it.
@@ -61,6 +63,10 @@ pub struct Candidate {
 }
 
 impl Candidate {
+    fn into_model(self) -> Model {
+        Model { surface: self.choice.surface, side: self.side }
+    }
+
     /// Leaves out faces whose middles lie much further off than those of the others: all facets of a curved
     /// surface are about as fine, and the corners of a plane beside it lie on many a torus.
     fn drop_strangers(&mut self, scene: &Scene) {
@@ -126,19 +132,26 @@ pub fn detect(
     context: &mut Context,
     scene: &Scene,
     share: f64,
-) -> Result<Option<(Labels, Vec<Candidate>)>> {
+) -> Result<Option<(Labels, Vec<Model>)>> {
     let mut labels = vec![UNLABELLED; scene.mesh.faces.len()];
+    let mut models = Vec::new();
+    if scene.tessellated {
+        facets::large(scene, &mut models, &mut labels);
+    }
     // On a clean mesh neighbours take nothing that is not theirs.
     let growth = if scene.noisy() { Growth::Over } else { Growth::Within };
-    let Some(mut found) = explain(context, scene, &mut labels, growth, 0, share)? else {
+    let first = models.len() as u32;
+    let Some(found) = explain(context, scene, &mut labels, growth, first, share)? else {
         return Ok(None);
     };
+    models.extend(found.into_iter().map(Candidate::into_model));
     if scene.evidence.general {
-        let first = found.len() as u32;
+        let first = models.len() as u32;
         let coarse = explain(context, scene, &mut labels, Growth::Coarse, first, 1.0)?;
-        found.extend(coarse.into_iter().flatten());
+        models.extend(coarse.into_iter().flatten().map(Candidate::into_model));
+        facets::left(scene, &mut models, &mut labels);
     }
-    Ok(Some((labels, found)))
+    Ok(Some((labels, models)))
 }
 
 /// The same for the faces that have no label yet; labels of what is found count from `first`.
@@ -168,7 +181,7 @@ pub fn explain(
             let candidate = pool.with(|work| propose(scene, seed, labels, growth, work))?;
             let offer = Offer { seed, costs: candidate.costs(scene), candidate };
             let saved = offer.saving(&costs);
-            let pays = offer.candidate.faces.len() >= FEWEST && saved > offer.candidate.price();
+            let pays = offer.candidate.faces.len() >= fewest(scene) && saved > offer.candidate.price();
             pays.then_some((saved, offer))
         };
         let proposed: Vec<_> = seeds.par_iter().with_max_len(1).map(propose).collect();
@@ -308,6 +321,10 @@ fn fit_again(scene: &Scene, candidate: &Candidate, work: &mut Workspace) -> Opti
 /// Iterations of a fit that starts from a fit to fewer faces.
 const AGAIN: usize = 4;
 
+fn fewest(scene: &Scene) -> usize {
+    if scene.tessellated { FEWEST_EXACT } else { FEWEST }
+}
+
 /// Whether nothing but noise is left: the mean square of `n` residuals scatters by `sqrt(2/n)`.
 fn adequate(choice: &Choice, faces: usize) -> bool {
     choice.misfit < most_misfit(faces)
@@ -332,7 +349,7 @@ pub(super) fn grow(
     let mut fitted = current.faces.len();
     for _ in 0..REFITS {
         let faces = connected_inliers(scene, &current, labels, growth, &mut work.faces);
-        if faces.len() < FEWEST {
+        if faces.len() < fewest(scene) {
             return None;
         }
         let grown = faces.len() as f64 / fitted as f64;

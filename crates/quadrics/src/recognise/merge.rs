@@ -200,8 +200,11 @@ impl<'s, 'm> Merger<'s, 'm> {
                 }
                 // A large facet and a fillet have all of their vertices on one torus, but not their faces.
                 if self.scene.evidence.general && gain > CHANGE_ELSE {
-                    let agrees = |id: u32| self.agrees(id, &choice.surface);
-                    gain = if agrees(a) && agrees(b) { gain } else { f64::NEG_INFINITY };
+                    let may = |id: u32| {
+                        self.agrees(id, &choice.surface)
+                            && self.may_bend(&models[id as usize].surface, &choice.surface)
+                    };
+                    gain = if may(a) && may(b) { gain } else { f64::NEG_INFINITY };
                 }
                 let alike = |id: u32| models[id as usize].surface.is_like(&choice.surface);
                 if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {
@@ -211,6 +214,11 @@ impl<'s, 'm> Merger<'s, 'm> {
             })
             .collect();
         self.unions.extend(unknown.into_iter().zip(judged));
+    }
+
+    /// Planes of a tessellation are exact; the corners of two of them lie on a cylinder.
+    fn may_bend(&self, from: &Surface, to: &Surface) -> bool {
+        !(self.scene.tessellated && matches!(from, Surface::Plane(_))) || from.is_like(to)
     }
 
     /// Whether the faces of a region lie as a surface does.

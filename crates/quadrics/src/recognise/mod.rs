@@ -34,7 +34,6 @@ use crate::options::Options;
 use crate::partition::{Labels, UNLABELLED, components, region_count};
 use crate::surface::{Plane, Surface};
 use assign::Model;
-use detect::Candidate;
 use scene::Scene;
 
 /// Labels of all faces, and a surface for every label.
@@ -207,12 +206,7 @@ fn start(context: &mut Context, scene: &mut Scene) -> Result<(Labels, Vec<Model>
 }
 
 /// What detection left: large rests are free-form, the others join a neighbour.
-fn hand_out(scene: &Scene, mut labels: Labels, found: Vec<Candidate>) -> (Labels, Vec<Model>) {
-    let mut models: Vec<Model> =
-        found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }).collect();
-    if scene.evidence.general {
-        facets::add(scene, &mut models, &mut labels);
-    }
+fn hand_out(scene: &Scene, mut labels: Labels, mut models: Vec<Model>) -> (Labels, Vec<Model>) {
     let rest = free_form::rest(scene, &labels);
     let marks: Vec<u32> = rest.iter().map(|&rest| u32::from(rest)).collect();
     let (component, sizes) = components(&marks, scene.adjacency);
