@@ -75,6 +75,18 @@ def turned(profile: NDArray[np.float64], n: int = 96) -> Arrays:
     return np.concatenate([*rows, poles]), np.concatenate(faces)
 
 
+def prism(outline: NDArray[np.float64], height: float) -> Arrays:
+    """A closed prism as CAD programs write it: two triangles a side, ends as fans."""
+    n = len(outline)
+    points = np.concatenate([np.column_stack([outline, np.full(n, h)]) for h in (0.0, height)])
+    at, after = np.arange(n), (np.arange(n) + 1) % n
+    first, second, third = np.zeros(n - 2, int), np.arange(1, n - 1), np.arange(2, n)
+    faces = [np.column_stack([at, after, after + n]), np.column_stack([at, after + n, at + n])]
+    faces += [np.column_stack([first, third, second])]
+    faces += [np.column_stack([first, second, third]) + n]
+    return points, np.concatenate(faces)
+
+
 def weld(points: NDArray[np.float64], faces: NDArray[np.int64]) -> Arrays:
     unique, inverse = np.unique(points.round(12), axis=0, return_inverse=True)
     return unique, inverse.ravel()[faces]

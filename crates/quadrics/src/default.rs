@@ -112,7 +112,9 @@ fn stand_ins(context: &mut Context, scene: &mut Scene, task: Task) -> Result<Opt
     let Task { cube, options, .. } = task;
     let few = cube.len() < FACES_FOR_ONE * COARSE_FACES;
     let asked = options.coarse == options::Coarse::On;
-    if options.coarse == options::Coarse::Off || (few && !asked) {
+    // A tessellation has no vertex to spare.
+    let exact = scene.tessellated && !asked;
+    if options.coarse == options::Coarse::Off || exact || (few && !asked) {
         return Ok(None);
     }
     let noisy = context.timed("prepare", |_| Ok(noise::turn(cube) > NOISY))?;

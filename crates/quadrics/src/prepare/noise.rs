@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 
 use crate::math::Point;
-use crate::mesh::{Adjacency, Mesh, Working};
+use crate::mesh::{Adjacency, Mesh, NONE, Working};
 use crate::surface::height_field::HeightField;
 
 /// Neighbourhoods that are looked at.
@@ -37,22 +37,26 @@ pub fn position(mesh: &Mesh, adjacency: &Adjacency) -> f64 {
 /// Faces of an exact mesh lie in the plane of the next within so much of the size: files carry five to seven
 /// digits.
 const ROUNDING: f64 = 1e-5;
-/// In a tessellation more than this share of the edges are within planes (0.2 to 0.5; 0.05 and less where half
-/// of the vertices err), and fewer than this share of the vertices (none; a fifth where a mesh was made to be
-/// computed on; where so few are left by noise, it leaves a tenth of the edges).
-const EDGES: f64 = 0.15;
+/// In a tessellation more than this share of the edges, by length, are within planes (0.04 to 0.6; at most 0.055
+/// where half of the vertices err), and fewer than this share of the vertices (none; a fifth where a mesh was
+/// made to be computed on; where noise leaves no more, it leaves a tenth of the edges).
+const EDGES: f64 = 0.12;
 const VERTICES_WITHIN: f64 = 0.02;
 
 /// Whether a mesh of the size 1 is what CAD programs write: exact, and without a vertex within a plane, so that
 /// no neighbourhood shows that it is.
 pub fn is_tessellated(mesh: &Mesh, adjacency: &Adjacency) -> bool {
     let step = (mesh.faces.len() / TURNS).max(1);
-    let (mut within, mut edges) = (0usize, 0usize);
+    let (mut within, mut edges) = (0.0, 0.0);
     let (mut inner, mut vertices) = (0usize, 0usize);
     for face in (0..mesh.faces.len()).step_by(step) {
         let coplanar = |other: usize| are_coplanar(mesh, face, other);
-        within += adjacency.across(face).filter(|&other| coplanar(other)).count();
-        edges += adjacency.across(face).count();
+        let corners = mesh.corners(face);
+        for (k, &other) in adjacency.neighbours[face].iter().enumerate().filter(|e| *e.1 != NONE) {
+            let length = (corners[(k + 1) % 3] - corners[k]).norm();
+            edges += length;
+            within += if coplanar(other as usize) { length } else { 0.0 };
+        }
         let around = adjacency.around(mesh.faces[face][0]);
         // Where the mesh ends, the faces of one plane are often all there is.
         if around.iter().all(|&other| adjacency.across(other as usize).count() == 3) {
@@ -60,7 +64,7 @@ pub fn is_tessellated(mesh: &Mesh, adjacency: &Adjacency) -> bool {
             vertices += 1;
         }
     }
-    within as f64 > EDGES * edges as f64 && (inner as f64) < VERTICES_WITHIN * vertices as f64
+    within > EDGES * edges && (inner as f64) < VERTICES_WITHIN * vertices as f64
 }
 
 /// Whether the corners of one face lie in the plane of another.

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::assign::{self, Model, face_cost};
-use super::scene::Scene;
 use super::detect::{self, Growth};
+use super::scene::Scene;
 use super::{evidence, expand, merge, moves};
 use crate::context::Context;
 use crate::error::Result;

@@ -181,7 +181,8 @@ pub fn explain(
             let candidate = pool.with(|work| propose(scene, seed, labels, growth, work))?;
             let offer = Offer { seed, costs: candidate.costs(scene), candidate };
             let saved = offer.saving(&costs);
-            let pays = offer.candidate.faces.len() >= fewest(scene) && saved > offer.candidate.price();
+            let pays =
+                offer.candidate.faces.len() >= fewest(scene) && saved > offer.candidate.price();
             pays.then_some((saved, offer))
         };
         let proposed: Vec<_> = seeds.par_iter().with_max_len(1).map(propose).collect();

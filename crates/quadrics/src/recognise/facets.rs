@@ -117,7 +117,8 @@ impl<'s, 'm> Facets<'s, 'm> {
 
     fn is_plane(&self, facet: usize, labels: &[u32]) -> bool {
         let Facet { faces, area, .. } = &self.facets[facet];
-        let size = |face: usize| self.facets.get(self.of[face]).map_or(0, |facet| facet.faces.len());
+        let size =
+            |face: usize| self.facets.get(self.of[face]).map_or(0, |facet| facet.faces.len());
         if faces.len() == 1 {
             let across = self.scene.adjacency.across(faces[0]);
             if across.filter(|&other| size(other) == 1).count() >= ROUND {
