@@ -88,7 +88,7 @@ fn better(
     evidence: Evidence,
     surface: &Surface,
 ) -> Option<(Choice, Choice)> {
-    if matches!(surface, Surface::FreeForm | Surface::Quadric(_)) {
+    if surface.is_general() || matches!(surface, Surface::FreeForm) {
         return None;
     }
     let (like, unlike): (Vec<_>, Vec<_>) =

@@ -96,7 +96,7 @@ fn candidates(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) 
     let (gathered, evidence) = scene.means(faces, CHOICE, marks);
     let samples = gathered.samples();
     let mut choices = select::choose(samples, gathered.total, evidence);
-    if matches!(known, Surface::Quadric(_)) {
+    if known.is_general() {
         choices.extend(general::choose(samples, gathered.total, evidence));
     }
     if let Some(fit) = refine(known, samples.points, &[]) {

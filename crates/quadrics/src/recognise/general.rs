@@ -57,11 +57,18 @@ pub fn unite(
         // It may have been taken in.
         if !uniter.faces[seed as usize].is_empty() {
             let pieces = if continued[seed as usize] {
-                uniter.grown(seed, labels).unwrap_or_default()
+                uniter.grown(seed, &models[seed as usize].surface, labels).unwrap_or_default()
             } else {
                 vec![seed]
             };
-            found |= uniter.attempt(&pieces, models, labels);
+            let united = uniter.attempt(&pieces, models, labels);
+            // A sheet of a torus reaches further than the quadric that it was found by.
+            if united && matches!(models[pieces[0] as usize].surface, Surface::Torus(_)) {
+                let surface = models[pieces[0] as usize].surface.clone();
+                let more = uniter.grown(pieces[0], &surface, labels).unwrap_or_default();
+                uniter.attempt(&more, models, labels);
+            }
+            found |= united;
         }
     }
     tidy(models, labels);
@@ -141,10 +148,11 @@ impl<'s, 'm> Uniter<'s, 'm> {
     }
 
     /// The regions that the free quadric of one grows over.
-    fn grown(&mut self, seed: u32, labels: &[u32]) -> Option<Vec<u32>> {
+    fn grown(&mut self, seed: u32, surface: &Surface, labels: &[u32]) -> Option<Vec<u32>> {
         let faces = self.faces[seed as usize].clone();
         let gathered = self.scene.samples(&faces, START, &mut self.marks);
-        let surface = general::free(gathered.samples())?;
+        let own = Some(surface).filter(|own| own.is_general()).cloned();
+        let surface = own.or_else(|| general::free(gathered.samples()))?;
         let choice = self.judge(surface, &gathered);
         if choice.misfit > most_misfit(faces.len()) {
             return None;
@@ -184,11 +192,12 @@ impl<'s, 'm> Uniter<'s, 'm> {
         // The free fit costs most and fits best: what it cannot win by far, no class wins.
         let margin = if correlated { MARGIN_SCAN } else { MARGIN };
         let held = 2.0 * HELD_FREEDOM * evidence.samples(total).ln();
-        if free.misfit > most || apart.gain(&free, total, evidence) + held < margin {
-            return None;
-        }
-        let choices = general::choose_near(free.surface, samples, total, evidence);
-        let choice = choices.into_iter().next()?;
+        let hopeless = free.misfit > most || apart.gain(&free, total, evidence) + held < margin;
+        let choice = if hopeless {
+            self.judge(general::sheet(samples, evidence)?, &gathered)
+        } else {
+            general::choose_near(free.surface, samples, total, evidence).into_iter().next()?
+        };
         let margin = if is_open(&choice.surface) { OPEN * margin } else { margin };
         if choice.misfit > most || apart.gain(&choice, total, evidence) < margin {
             return None;

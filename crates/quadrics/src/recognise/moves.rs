@@ -66,11 +66,12 @@ fn refit(scene: &Scene, model: &mut Model, faces: &[u32], marks: &mut Marks) {
     let gathered = scene.samples(faces, SAMPLES, marks);
     let (samples, total, evidence) = (gathered.samples(), gathered.total, scene.evidence);
     let simple = best(scene, &gathered, evidence);
-    let quadric = matches!(model.surface, Surface::Quadric(_));
-    // Under noise only a region that is a general quadric already may be one.
-    let general = (quadric && !evidence.general).then(|| general::choose(samples, total, evidence));
+    // Under noise only a region that is of a general type already may be of one.
+    let general = model.surface.is_general() && !evidence.general;
+    let general = general.then(|| general::choose(samples, total, evidence));
     // On a clean mesh a few strange faces turn a fit away from what all the others lie on. Quadrics
     // are not worth it: they may be patches of what no surface explains.
+    let quadric = matches!(model.surface, Surface::Quadric(_));
     let known = (!quadric && evidence.general)
         .then(|| select::judge(model.surface.clone(), samples, total, evidence));
     let choices = simple.into_iter().chain(general.into_iter().flatten()).chain(known);

@@ -2,9 +2,9 @@
 
 use super::family::{Family, HELD};
 use super::kind::{Class, kind};
-use super::select::{Choice, Evidence, judge, plausible};
+use super::select::{Choice, Evidence, best_of, judge, plausible};
 use super::start::{self, Samples};
-use super::{Surface, refine_within};
+use super::{Surface, Torus, refine_within};
 use crate::math::Point;
 
 /// Fewest points that show a general quadric.
@@ -35,11 +35,19 @@ pub fn choose_near(
             && proper(surface)
             && plausible(surface, samples, evidence)
     };
-    let all = held.chain([free]).filter(sound);
+    let all = held.chain([free]).filter(sound).chain(sheet(samples, evidence));
     let mut choices: Vec<Choice> =
         all.map(|surface| judge(surface, samples, vertices, evidence)).collect();
     choices.sort_by(|a, b| a.criterion.total_cmp(&b.criterion));
     choices
+}
+
+/// The torus that cuts itself; on a clean mesh it is a type like any other.
+pub fn sheet(samples: Samples, evidence: Evidence) -> Option<Surface> {
+    let axes = (!evidence.general).then(|| start::axes(samples)).unwrap_or_default();
+    let starts = axes.iter().filter_map(|axis| start::torus(samples, axis));
+    let sheets = starts.filter(Torus::cuts_itself).map(Surface::Torus);
+    best_of(sheets, samples).filter(|fit| fit.is_general() && plausible(fit, samples, evidence))
 }
 
 /// The free orthogonal-distance fit.

@@ -92,6 +92,16 @@ pub enum Surface {
 }
 
 impl Surface {
+    /// Whether it is asked only where simpler types do not explain a noisy region: a general quadric, or a
+    /// torus that cuts itself.
+    pub fn is_general(&self) -> bool {
+        match self {
+            Self::Quadric(_) => true,
+            Self::Torus(s) => s.cuts_itself(),
+            _ => false,
+        }
+    }
+
     /// Whether it is of another's type.
     pub fn is_like(&self, other: &Self) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)

@@ -58,6 +58,8 @@ const TRIAL_ITERATIONS: usize = 4;
 const FINAL_ITERATIONS: usize = 25;
 /// Surfaces with a radius above this many sizes are planes (points are in the unit cube).
 pub(super) const LARGEST_RADIUS: f64 = 5.0;
+/// A torus whose spine is narrower than its tube by more is a sphere.
+const NARROWEST: f64 = 20.0;
 /// Half angles outside this range, in degrees, are cylinders or planes.
 const HALF_ANGLES: (f64, f64) = (0.3, 88.0);
 /// Least mean cosine between the normals of the samples and of the surface on a clean mesh: many
@@ -128,7 +130,8 @@ pub fn judge_at(
 pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choice> {
     let mut choices: Vec<Choice> = Vec::new();
     let consider = |choices: &mut Vec<Choice>, surface: Surface| {
-        if plausible(&surface, samples, evidence) {
+        let asked = evidence.general || !surface.is_general();
+        if asked && plausible(&surface, samples, evidence) {
             let choice = judge(surface, samples, vertices, evidence);
             insert(choices, choice);
         }
@@ -161,9 +164,8 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     }
     if best > bound(8.0) && samples.points.len() >= 10 {
         let turned = axes.iter().filter_map(|axis| start::torus(samples, axis));
-        // A sheet of a torus that cuts itself is told from a sphere or a cylinder on a clean mesh only.
-        let sheeted = |torus: &Torus| evidence.general || torus.major_radius > 0.0;
-        let turned = turned.filter(sheeted).map(Surface::Torus);
+        let asked = |torus: &Torus| evidence.general || torus.major_radius > 0.0;
+        let turned = turned.filter(asked).map(Surface::Torus);
         // Under noise curvatures say little, and a probe that may bend mistakes its neighbours for noise.
         let bent = evidence.is_quiet().then(|| tori(samples)).into_iter().flatten();
         if let Some(torus) = best_of(turned.chain(bent), samples) {
@@ -198,7 +200,7 @@ fn insert(choices: &mut Vec<Choice>, choice: Choice) {
 }
 
 /// The best orthogonal-distance fit from several starts: a few iterations each, the winner to the end.
-fn best_of(starts: impl Iterator<Item = Surface>, samples: Samples) -> Option<Surface> {
+pub(super) fn best_of(starts: impl Iterator<Item = Surface>, samples: Samples) -> Option<Surface> {
     let trials = starts.filter_map(|s| refine_within(&s, samples.points, &[], TRIAL_ITERATIONS));
     let best = trials.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
     Some(refine_within(&best.surface, samples.points, &[], FINAL_ITERATIONS)?.surface)
@@ -215,9 +217,8 @@ pub fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> boo
                     < samples.points.len()
         }
         Surface::Torus(s) => {
-            let ring = s.minor_radius < s.major_radius * 1.02;
             s.major_radius.abs() < LARGEST_RADIUS
-                && (ring || (evidence.general && s.minor_radius < LARGEST_RADIUS))
+                && s.minor_radius < LARGEST_RADIUS.min(s.major_radius.abs() * NARROWEST)
         }
         _ => true,
     };

@@ -19,6 +19,11 @@ pub struct Torus {
 }
 
 impl Torus {
+    /// Whether it cuts itself, by more than what the fit of a ring that closes its hole may do.
+    pub fn cuts_itself(&self) -> bool {
+        self.minor_radius > self.major_radius * 1.02
+    }
+
     /// The same torus in another frame.
     pub fn transformed(&self, by: &Similarity) -> Self {
         Self {
