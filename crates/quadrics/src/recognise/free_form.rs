@@ -25,6 +25,9 @@ const FLAT: f64 = 1.5;
 /// and the cylinders that continue them 21,000 and more.
 const PIECE: f64 = 500.0;
 
+/// A typed surface with more than this share of the area of a patch is no piece of it.
+const MOST: f64 = 0.5;
+
 /// A scan rounds its edges over so many faces on either side: a ribbon that is no wider is no patch
 /// (3 leaves some, 10 is the same).
 const RIBBON: usize = 5;
@@ -63,13 +66,24 @@ pub fn unite(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
             && seam.jump < (JUMP * seam.bend).max(FLAT)
             && seam.jump * area < PIECE * scene.evidence.sigma
     };
-    let piece = pieces(scene, models, &regions);
-    let may_join = |seam: &&Seam| piece[seam.one as usize] && piece[seam.other as usize];
-    let mut patch: Vec<u32> = (0..models.len() as u32).collect();
-    for seam in seams.iter().filter(may_join).filter(|seam| smooth(seam)) {
-        join(&mut patch, 0, seam.one, seam.other);
+    let joined = |piece: &[bool]| -> Vec<u32> {
+        let may_join = |seam: &&Seam| piece[seam.one as usize] && piece[seam.other as usize];
+        let mut patch: Vec<u32> = (0..models.len() as u32).collect();
+        for seam in seams.iter().filter(may_join).filter(|seam| smooth(seam)) {
+            join(&mut patch, 0, seam.one, seam.other);
+        }
+        (0..models.len() as u32).map(|id| root(&mut patch, 0, id)).collect()
+    };
+    let mut piece = pieces(scene, models, &regions);
+    let patch = joined(&piece);
+    let mut whole = vec![0.0; models.len()];
+    patch.iter().zip(&areas).for_each(|(&patch, area)| whole[patch as usize] += area);
+    // A fillet that a blend of the same radius continues is no piece of the blend.
+    for id in 0..models.len() {
+        let most = areas[id] > MOST * whole[patch[id] as usize];
+        piece[id] &= !most || matches!(models[id].surface, Surface::Quadric(_));
     }
-    let patch: Vec<u32> = (0..models.len() as u32).map(|id| root(&mut patch, 0, id)).collect();
+    let patch = joined(&piece);
     let mut price = vec![0.0; models.len()];
     let mut faces = vec![0usize; models.len()];
     for (id, &patch) in patch.iter().enumerate() {
