@@ -1,10 +1,13 @@
 //! Free-form patches: what no surface explains, and where many surfaces continue each other, curvature
 //! and all, so that none of them is the surface.
 
+use std::collections::BTreeMap;
+
 use super::assign::Model;
 use super::moves::{LABEL, tidy};
 use super::scene::Scene;
 use super::seams::{Seam, pieces, seams};
+use crate::mesh::NONE;
 use crate::partition::{Regions, UNLABELLED, join, root};
 use crate::surface::Surface;
 use crate::surface::select;
@@ -27,6 +30,9 @@ const PIECE: f64 = 500.0;
 
 /// A typed surface with more than this share of the area of a patch is no piece of it.
 const MOST: f64 = 0.5;
+
+/// Share of a patch that a region within it may have to be a spot of it.
+const CRUMB: f64 = 0.05;
 
 /// A scan rounds its edges over so many faces on either side: a ribbon that is no wider is no patch
 /// (3 leaves some, 10 is the same).
@@ -126,6 +132,44 @@ pub fn unite(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
     labels.iter_mut().filter(|label| free[**label as usize]).for_each(|label| {
         *label = into[*label as usize];
     });
+    tidy(models, labels);
+    take_crumbs(scene, models, labels);
+}
+
+/// Hands small regions that a free-form one mostly surrounds, without a crease, to it: a curved patch has
+/// spots that a surface of some type explains.
+fn take_crumbs(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
+    let free = |id: u32| matches!(models[id as usize].surface, Surface::FreeForm);
+    let mut areas = vec![0.0; models.len()];
+    let mut around = vec![0.0; models.len()];
+    let mut shared: BTreeMap<(u32, u32), (f64, f64)> = BTreeMap::new();
+    for (face, &id) in labels.iter().enumerate() {
+        areas[id as usize] += scene.geometry.areas[face];
+        let corners = scene.mesh.corners(face);
+        for (edge, &next) in scene.adjacency.neighbours[face].iter().enumerate() {
+            if next == NONE || labels[next as usize] == id {
+                continue;
+            }
+            let length = (corners[(edge + 1) % 3] - corners[edge]).norm();
+            around[id as usize] += length;
+            let host = labels[next as usize];
+            if free(host) {
+                let normals = &scene.geometry.normals;
+                let turn = (normals[face] - normals[next as usize]).norm_squared();
+                let border = shared.entry((id, host)).or_default();
+                *border = (border.0 + length, border.1 + length * turn);
+            }
+        }
+    }
+    let smooth = 2.0 - 2.0 * TANGENT_DEG.to_radians().cos();
+    let mut into: Vec<u32> = (0..models.len() as u32).collect();
+    for ((id, host), (length, turn)) in shared {
+        let small = areas[id as usize] < CRUMB * areas[host as usize];
+        if small && 2.0 * length > around[id as usize] && turn < smooth * length {
+            into[id as usize] = host;
+        }
+    }
+    labels.iter_mut().for_each(|label| *label = into[*label as usize]);
     tidy(models, labels);
 }
 
