@@ -171,6 +171,10 @@ pub fn explain(
     let cost = |&label: &u32| if label == UNLABELLED { UNEXPLAINED } else { 0.0 };
     let mut costs: Vec<f64> = labels.iter().map(cost).collect();
     let mut waiting = Waiting::new(labels);
+    if growth == Growth::Coarse {
+        let smooth = |&face: &u32| !is_creased(scene, labels, face as usize);
+        (0..labels.len() as u32).filter(smooth).for_each(|face| waiting.open.close(face));
+    }
     let total = waiting.open.len().max(1) as f64;
     while !waiting.open.is_empty() {
         context.step("detect", 1.0 - waiting.open.len() as f64 / total)?;
@@ -215,6 +219,16 @@ pub fn explain(
         }
     }
     Ok(Some(found))
+}
+
+/// Whether a crease that a coarse surface may have parts a face from the next, both without a label.
+fn is_creased(scene: &Scene, labels: &[u32], face: usize) -> bool {
+    let mut free = scene.adjacency.across(face).filter(|&other| labels[other] == UNLABELLED);
+    labels[face] == UNLABELLED
+        && free.any(|other| {
+            let turn = scene.normals[face].dot(&scene.normals[other]);
+            (CREASE_COARSE.cos()..CREASE.cos()).contains(&turn)
+        })
 }
 
 /// A candidate, the seed that it grew from, and what its faces would cost.

@@ -164,7 +164,8 @@ pub fn choose(samples: Samples, vertices: usize, evidence: Evidence) -> Vec<Choi
     }
     if best > bound(8.0) && samples.points.len() >= 10 {
         let turned = axes.iter().filter_map(|axis| start::torus(samples, axis));
-        let asked = |torus: &Torus| evidence.general || torus.major_radius > 0.0;
+        let asked =
+            |torus: &Torus| torus.major_radius > 0.0 || (evidence.general && is_of_size(torus));
         let turned = turned.filter(asked).map(Surface::Torus);
         // Under noise curvatures say little, and a probe that may bend mistakes its neighbours for noise.
         let bent = evidence.is_quiet().then(|| tori(samples)).into_iter().flatten();
@@ -216,13 +217,15 @@ pub fn plausible(surface: &Surface, samples: Samples, evidence: Evidence) -> boo
                 && samples.points.iter().filter(|p| s.axis.dot(&(*p - s.apex)) < 0.0).count() * 20
                     < samples.points.len()
         }
-        Surface::Torus(s) => {
-            s.major_radius.abs() < LARGEST_RADIUS
-                && s.minor_radius < LARGEST_RADIUS.min(s.major_radius.abs() * NARROWEST)
-        }
+        Surface::Torus(s) => is_of_size(s),
         _ => true,
     };
     sensible && one_sided(surface, samples, evidence)
+}
+
+fn is_of_size(torus: &Torus) -> bool {
+    let spine = torus.major_radius.abs();
+    spine < LARGEST_RADIUS && torus.minor_radius < LARGEST_RADIUS.min(spine * NARROWEST)
 }
 
 /// Whether the samples' normals agree with the surface's, up to one sign: a tube as thin as the
