@@ -1,7 +1,8 @@
 //! The last fit of a region: its type by few samples, its parameters by all of its vertices.
 
 use crate::math::Point;
-use crate::recognise::scene::{Marks, ROUNDING, Scene};
+use crate::prepare::noise::ROUNDING;
+use crate::recognise::scene::{Marks, Scene};
 use crate::surface::select::{self, Choice};
 use crate::surface::{Scatter, Shape, Surface, Waves, general, refine};
 

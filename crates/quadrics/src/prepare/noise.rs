@@ -34,17 +34,16 @@ pub fn position(mesh: &Mesh, adjacency: &Adjacency) -> f64 {
     residuals[(residuals.len() as f64 * QUANTILE) as usize] / QUANTILE_OF_NOISE
 }
 
-/// Faces of an exact mesh lie in the plane of the next within so much of the size: files carry five to seven
-/// digits.
-const ROUNDING: f64 = 1e-5;
+/// Rounding of the input's coordinates, in sizes: no sigma is smaller. Files carry five to seven digits.
+pub const ROUNDING: f64 = 1e-5;
 /// In a tessellation more than this share of the edges, by length, are within planes (0.04 to 0.6; at most 0.055
 /// where half of the vertices err), and fewer than this share of the vertices (none; a fifth where a mesh was
 /// made to be computed on; where noise leaves no more, it leaves a tenth of the edges).
 const EDGES: f64 = 0.12;
 const VERTICES_WITHIN: f64 = 0.02;
 
-/// Whether a mesh of the size 1 is what CAD programs write: exact, and without a vertex within a plane, so that
-/// no neighbourhood shows that it is.
+/// Whether a mesh in the unit cube is what CAD programs write: exact, and without a vertex within a plane, so
+/// that no neighbourhood shows that it is.
 pub fn is_tessellated(mesh: &Mesh, adjacency: &Adjacency) -> bool {
     let step = (mesh.faces.len() / TURNS).max(1);
     let (mut within, mut edges) = (0.0, 0.0);

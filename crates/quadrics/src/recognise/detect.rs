@@ -123,8 +123,8 @@ pub struct Workspace {
     pub faces: Marks,
 }
 
-/// Covers the mesh with surfaces, largest first; faces that nothing explains stay unlabelled.
-/// `None` when seeds lead nowhere on more than a `share` of the faces.
+/// Covers the mesh with surfaces, the planes of a tessellation first, then the largest; faces that nothing
+/// explains stay unlabelled. `None` when seeds lead nowhere on more than a `share` of the faces.
 ///
 /// # Errors
 /// Cancellation.

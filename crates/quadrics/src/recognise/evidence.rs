@@ -8,11 +8,12 @@ use rayon::prelude::*;
 
 use super::detect::{Candidate, Growth, most_misfit, propose};
 use super::pool::Pool;
-use super::scene::{ROUNDING, Scene};
+use super::scene::Scene;
 use crate::context::Context;
 use crate::error::Result;
 use crate::math::Point;
 use crate::partition::{Regions, UNLABELLED};
+use crate::prepare::noise::ROUNDING;
 use crate::surface::Surface;
 use crate::surface::select::Evidence;
 

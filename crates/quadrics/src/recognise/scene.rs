@@ -5,7 +5,8 @@ use std::borrow::Cow;
 use super::means::Cells;
 use crate::math::{Point, Vector};
 use crate::mesh::{Adjacency, Geometry, Mesh, Working};
-use crate::prepare::{noise, normals};
+use crate::prepare::noise::{self, ROUNDING};
+use crate::prepare::normals;
 use crate::surface::Shape;
 use crate::surface::related::Shown;
 use crate::surface::select::Evidence;
@@ -34,9 +35,6 @@ pub struct Scene<'a> {
     pub shown: Shown,
 }
 
-/// Rounding of the input's coordinates, in sizes: no sigma is smaller. Files carry five to seven
-/// digits.
-pub const ROUNDING: f64 = 1e-5;
 /// Normal noise below which nothing is filtered, in radians.
 const QUIET: f64 = 0.03;
 /// Least standard deviation of normals: facets of a curved surface are not tangent to it.
