@@ -21,16 +21,12 @@ pub fn impose(
 ) -> Result<(Vec<Relation>, Vec<Dimension>)> {
     let (mut at, mut items) = condensed(fits);
     let mut found = solved(fits, &at, &items, neighbours, demands, out)?;
-    let torn: Vec<bool> = at
-        .iter()
-        .zip(&found.surfaces)
-        .map(|(&i, surface)| is_torn(&fits[i], surface) && !demands.mention(i))
-        .collect();
-    if torn.contains(&true) {
-        let mut left = torn.iter();
-        at.retain(|_| !left.next().expect("one each"));
-        let mut left = torn.iter();
-        items.retain(|_| !left.next().expect("one each"));
+    let stays =
+        |(&i, surface): (&usize, &Surface)| demands.mention(i) || !is_torn(&fits[i], surface);
+    let stay: Vec<bool> = at.iter().zip(&found.surfaces).map(stays).collect();
+    if stay.contains(&false) {
+        let pairs = at.into_iter().zip(items).zip(stay);
+        (at, items) = pairs.filter(|(_, stays)| *stays).map(|(pair, _)| pair).unzip();
         found = solved(fits, &at, &items, neighbours, demands, out)?;
     }
     let Constrained { surfaces, links, dimensions, scatters } = found;
