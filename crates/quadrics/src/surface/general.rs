@@ -44,7 +44,10 @@ pub fn choose_near(
 
 /// The torus that cuts itself; on a clean mesh it is a type like any other.
 pub fn sheet(samples: Samples, evidence: Evidence) -> Option<Surface> {
-    let axes = (!evidence.general).then(|| start::axes(samples)).unwrap_or_default();
+    if evidence.general {
+        return None;
+    }
+    let axes = start::axes(samples);
     let starts = axes.iter().filter_map(|axis| start::torus(samples, axis));
     let sheets = starts.filter(Torus::cuts_itself).map(Surface::Torus);
     best_of(sheets, samples).filter(|fit| fit.is_general() && plausible(fit, samples, evidence))
