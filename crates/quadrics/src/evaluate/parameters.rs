@@ -39,7 +39,7 @@ pub fn parameter_errors(
             [&direction[..], &[("half_angle_deg", half), apart(f.apex, t.apex, size)]].concat()
         }
         (Surface::Torus(f), Surface::Torus(t)) => {
-            let major = relative(f.major_radius, t.major_radius);
+            let major = relative(f.major_radius.abs(), t.major_radius.abs());
             let radius = major.max(relative(f.minor_radius, t.minor_radius));
             vec![angle(&f.axis, &t.axis), ("radius", radius), apart(f.center, t.center, size)]
         }

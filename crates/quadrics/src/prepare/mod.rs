@@ -10,6 +10,7 @@ mod order;
 mod place;
 mod relax;
 mod subdivide;
+mod tessellation;
 mod unit_cube;
 
 pub use axes::{Placed, in_own_cube, in_unit_cube};
@@ -18,4 +19,5 @@ pub use coarsen::{Coarse, coarsen, gather, is_faceted};
 pub use order::{Ordered, ordered};
 pub use place::place;
 pub use subdivide::{Subdivided, subdivide};
+pub use tessellation::is_tessellated;
 pub use unit_cube::to_unit_cube;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::assign::{self, Model, face_cost};
-use super::detect::{self, Growth};
+use super::detect::{self, Candidate, Growth};
 use super::scene::Scene;
 use super::{evidence, expand, merge, moves};
 use crate::context::Context;
@@ -82,7 +82,7 @@ pub fn complete(
     let found = detect::explain(context, scene, labels, Growth::Within, models.len() as u32, 1.0)?;
     let found = found.unwrap_or_default();
     let nothing = found.is_empty();
-    models.extend(found.into_iter().map(|c| Model { surface: c.choice.surface, side: c.side }));
+    models.extend(found.into_iter().map(Candidate::into_model));
     assign::flood(scene, models, labels);
     assign::name_the_rest(scene, models, labels);
     if nothing {

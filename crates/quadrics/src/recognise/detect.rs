@@ -63,7 +63,8 @@ pub struct Candidate {
 }
 
 impl Candidate {
-    fn into_model(self) -> Model {
+    /// Its surface as a region's.
+    pub fn into_model(self) -> Model {
         Model { surface: self.choice.surface, side: self.side }
     }
 

@@ -140,6 +140,9 @@ pub fn unite(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
 /// spots that a surface of some type explains.
 fn take_crumbs(scene: &Scene, models: &mut Vec<Model>, labels: &mut [u32]) {
     let free = |id: u32| matches!(models[id as usize].surface, Surface::FreeForm);
+    if !(0..models.len() as u32).any(free) {
+        return;
+    }
     let mut areas = vec![0.0; models.len()];
     let mut around = vec![0.0; models.len()];
     let mut shared: BTreeMap<(u32, u32), (f64, f64)> = BTreeMap::new();

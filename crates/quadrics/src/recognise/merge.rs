@@ -204,7 +204,7 @@ impl<'s, 'm> Merger<'s, 'm> {
                         self.agrees(id, &choice.surface)
                             && self.may_bend(&models[id as usize].surface, &choice.surface)
                     };
-                    gain = if may(a) && may(b) { gain } else { f64::NEG_INFINITY };
+                    gain = if may(a) && may(b) { gain } else { CHANGE_ELSE };
                 }
                 let alike = |id: u32| models[id as usize].surface.is_like(&choice.surface);
                 if self.scene.correlated() && choice.misfit < WAVES && alike(a) && alike(b) {

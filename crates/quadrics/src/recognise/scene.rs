@@ -6,7 +6,7 @@ use super::means::Cells;
 use crate::math::{Point, Vector};
 use crate::mesh::{Adjacency, Geometry, Mesh, Working};
 use crate::prepare::noise::{self, ROUNDING};
-use crate::prepare::normals;
+use crate::prepare::{is_tessellated, normals};
 use crate::surface::Shape;
 use crate::surface::related::Shown;
 use crate::surface::select::Evidence;
@@ -25,7 +25,7 @@ pub struct Scene<'a> {
     pub evidence: Evidence,
     /// Mean edge length.
     pub edge: f64,
-    /// Whether the mesh is what CAD programs write: exact, and without vertices within planes.
+    /// Whether the mesh is exact and uneven, as CAD programs and decimation make it.
     pub tessellated: bool,
     /// Faces for one of the mesh that surfaces are sought on: 1 where it is this one.
     pub grain: u32,
@@ -61,7 +61,7 @@ impl<'a> Scene<'a> {
     /// Looks at a mesh and leaves its normals as they are.
     pub fn raw(working: &'a Working) -> Self {
         let Working { mesh, geometry, adjacency } = working;
-        let tessellated = noise::is_tessellated(mesh, adjacency);
+        let tessellated = is_tessellated(mesh, adjacency);
         let known = if tessellated { 0.0 } else { noise::position(mesh, adjacency) };
         let sigma = known.max(ROUNDING);
         let area = geometry.areas.iter().sum::<f64>() / geometry.areas.len().max(1) as f64;
