@@ -1,10 +1,12 @@
 //! Is a matched pair the same surface? Extent, type and distance, each on its own.
 
+use std::borrow::Cow;
+
 use super::parameters::parameter_errors;
 use super::{Answer, Named, Pair};
 use crate::math::Point;
 use crate::mesh::{Geometry, Mesh};
-use crate::surface::{Cone, Surface, kind::kind};
+use crate::surface::{Cone, Surface, Torus, kind::kind};
 
 /// Least overlap (IoU) of a recognised region.
 const IOU: f64 = 0.6;
@@ -127,7 +129,7 @@ fn is_shapeless(kind: &str) -> bool {
 /// Unsigned distance; NaN where there is no surface.
 fn distance(surface: &Surface, point: Point) -> f64 {
     let point = if let Surface::Cone(cone) = surface { mirrored(cone, point) } else { point };
-    surface.distance(point).map_or(f64::NAN, f64::abs)
+    outer(surface).distance(point).map_or(f64::NAN, f64::abs)
 }
 
 /// The nearest point of the surface; the point itself where there is no nearest one.
@@ -136,7 +138,17 @@ fn project(surface: &Surface, point: Point) -> Point {
         let foot = surface.project(mirrored(cone, point)).unwrap_or(point);
         return if behind(cone, point) { mirror(cone, foot) } else { foot };
     }
-    surface.project(point).unwrap_or(point)
+    outer(surface).project(point).unwrap_or(point)
+}
+
+/// Truths do not tell which sheet of a torus that cuts itself they mean: tori are compared by the outer ones.
+fn outer(surface: &Surface) -> Cow<'_, Surface> {
+    match surface {
+        Surface::Torus(s) if s.major_radius < 0.0 => {
+            Cow::Owned(Surface::Torus(Torus { major_radius: -s.major_radius, ..s.clone() }))
+        }
+        _ => Cow::Borrowed(surface),
+    }
 }
 
 // Cones are compared as double cones: an axis that points the wrong way is an error of its own.
