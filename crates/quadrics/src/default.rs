@@ -12,7 +12,7 @@ use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, noise, subdivide}
 use crate::recognise::assign::{self, models};
 use crate::recognise::means::{Cells, gathered};
 use crate::recognise::{
-    self, Outcome, carry, evidence, expand, moves, patch, scene::Scene, unshown,
+    self, Outcome, bands, carry, evidence, expand, moves, patch, scene::Scene, unshown,
 };
 use crate::retype::retype;
 use crate::surface::Surface;
@@ -64,6 +64,15 @@ pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<O
         context.timed("patches", |_| {
             let mut models = models(scene, &Regions::new(&found.labels), found.surfaces.iter());
             patch::unite(scene, &mut models, &mut found.labels);
+            found.surfaces = models.into_iter().map(|model| model.surface).collect();
+            Ok(())
+        })?;
+    }
+    // Narrow walls show once all others are known.
+    if start.is_none() && options.regions.is_none() && scene.noisy() {
+        context.timed("bands", |_| {
+            let mut models = models(scene, &Regions::new(&found.labels), found.surfaces.iter());
+            bands::find(scene, &mut models, &mut found.labels);
             found.surfaces = models.into_iter().map(|model| model.surface).collect();
             Ok(())
         })?;

@@ -1,5 +1,7 @@
 //! The stations in order, nothing else.
 
+use std::borrow::Cow;
+
 use crate::baseline::baseline;
 use crate::context::Context;
 use crate::default::{Task, default};
@@ -70,6 +72,8 @@ fn run(
         }
         None => Default::default(),
     };
+    // What is said of the vertices is said of those that were given.
+    scene.mesh = Cow::Borrowed(&cube.mesh);
     let mut described =
         context.timed("describe", |_| Ok(describe(&scene, &on_clean, &fits, &out)))?;
     described.regions.iter_mut().for_each(|region| region.faces = 0);
@@ -127,8 +131,8 @@ fn by_paper(
     repairs: &mut Vec<Repair>,
 ) -> Result<Outcome> {
     let found = match options.method {
-        Method::Quadrics => paper(context, scene.mesh, options, start)?,
-        _ => baseline(context, scene.mesh, options, start)?,
+        Method::Quadrics => paper(context, &scene.mesh, options, start)?,
+        _ => baseline(context, &scene.mesh, options, start)?,
     };
     context.timed("prepare", |_| {
         scene.filter();

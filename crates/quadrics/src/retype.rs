@@ -43,6 +43,9 @@ pub fn retype(
         let around = Around { scene, models: &models, labels, regions: &regions };
         fits.par_iter_mut().enumerate().for_each_init(Marks::default, |marks, (i, fit)| {
             let faces = regions.faces(i);
+            if scene.is_band(faces) {
+                return;
+            }
             let (gathered, evidence) = scene.means(faces, SAMPLES, marks);
             // Every vertex counts in the section of a blend: on means there are too many.
             let single = scene.cells.is_none();

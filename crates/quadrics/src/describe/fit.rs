@@ -8,6 +8,8 @@ use crate::surface::{Scatter, Shape, Surface, Waves, general, refine};
 
 use super::confidence::{confidence, is_noteworthy};
 
+/// Confidence in the type of a band.
+const BAND: f64 = 0.8;
 /// Vertices that the choice of a type looks at, and those that the parameters come from.
 const CHOICE: usize = 400;
 const PARAMETERS: usize = 5000;
@@ -55,6 +57,9 @@ impl Recognised {
 /// Fits the faces of one region anew. `known` is the surface that it was recognised by; it stays
 /// where the noise explains no type.
 pub fn fit(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> Recognised {
+    if scene.is_band(faces) {
+        return kept(scene, faces, known.clone(), marks);
+    }
     let mut choices = candidates(scene, faces, known, marks);
     let explained = choices.first().is_some_and(|best| best.misfit <= EXPLAINED);
     let chosen = |choice: &Choice| explained || choice.surface.is_like(known);
@@ -66,6 +71,13 @@ pub fn fit(scene: &Scene, faces: &[u32], known: &Surface, marks: &mut Marks) -> 
     let confidence = confidence(&best, second.as_ref());
     let runner_up = second.filter(|second| is_noteworthy(&best, second)).map(|c| c.surface);
     Recognised { confidence, runner_up, ..settled(scene, faces, best.surface, marks) }
+}
+
+/// A band's surface as it was found: its vertices alone would turn it.
+fn kept(scene: &Scene, faces: &[u32], surface: Surface, marks: &mut Marks) -> Recognised {
+    let support = scene.samples(faces, PARAMETERS, marks).points;
+    let sigma = deviation(scene, &surface, &support);
+    Recognised { support, sigma, confidence: BAND, ..Recognised::without_support(surface) }
 }
 
 /// The surface of that type that most vertices of a region agree on; nothing says how sure the type is.

@@ -66,7 +66,7 @@ impl Scene<'_> {
         limit: usize,
         seen: &mut Marks,
     ) -> Option<(Gathered, Evidence)> {
-        let vertices = seen.vertices_of(self.mesh, faces).into_iter();
+        let vertices = seen.vertices_of(&self.mesh, faces).into_iter();
         let mut members: Vec<Member> = vertices
             .map(|(vertex, face)| (cells.of_vertex[vertex as usize], vertex, face))
             .collect();

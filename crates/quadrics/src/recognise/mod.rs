@@ -2,6 +2,7 @@
 
 pub mod around;
 pub mod assign;
+pub mod bands;
 pub mod blend;
 pub mod carry;
 pub mod count;
@@ -23,6 +24,7 @@ pub mod related;
 pub mod scene;
 mod seams;
 mod split;
+mod standing;
 pub mod unshown;
 
 use rayon::prelude::*;

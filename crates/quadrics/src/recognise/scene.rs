@@ -14,7 +14,7 @@ use crate::surface::select::Evidence;
 /// A mesh in the unit cube and all that is derived from it once.
 pub struct Scene<'a> {
     /// Positions and faces.
-    pub mesh: &'a Mesh,
+    pub mesh: Cow<'a, Mesh>,
     /// Areas, raw normals, barycentres.
     pub geometry: &'a Geometry,
     /// Neighbours.
@@ -33,6 +33,8 @@ pub struct Scene<'a> {
     pub cells: Option<Cells>,
     /// Directions and axes that the surfaces found so far show; none at first.
     pub shown: Shown,
+    /// Whether each face was found to be of a band; empty where there is none.
+    pub banded: Vec<bool>,
 }
 
 /// Normal noise below which nothing is filtered, in radians.
@@ -71,7 +73,7 @@ impl<'a> Scene<'a> {
             Evidence { sigma, independent: 1.0, normal_sigma: NORMAL_FLOOR, general: true };
         let normals = Cow::Borrowed(&geometry.normals[..]);
         Self {
-            mesh,
+            mesh: Cow::Borrowed(mesh),
             geometry,
             adjacency,
             normals,
@@ -81,6 +83,7 @@ impl<'a> Scene<'a> {
             grain: 1,
             cells: None,
             shown: Shown::default(),
+            banded: Vec::new(),
         }
     }
 
@@ -110,7 +113,7 @@ impl<'a> Scene<'a> {
     }
 
     fn filter_by(&mut self, rounds: usize, reach: f64) {
-        let rings = normals::Rings::new(self.mesh, self.adjacency);
+        let rings = normals::Rings::new(&self.mesh, self.adjacency);
         self.normals = Cow::Owned(normals::filter(self.geometry, &rings, rounds, reach));
     }
 
@@ -132,7 +135,7 @@ impl<'a> Scene<'a> {
     /// On scans, vertices that another region shares lie several sigmas off both: they are left out
     /// where enough others remain.
     pub fn samples(&self, faces: &[u32], limit: usize, seen: &mut Marks) -> Gathered {
-        let mut vertices = seen.vertices_of(self.mesh, faces);
+        let mut vertices = seen.vertices_of(&self.mesh, faces);
         if self.correlated() {
             let inner =
                 |&(v, _): &(u32, u32)| seen.count(v) == self.adjacency.around(v).len() as u32;
@@ -155,6 +158,13 @@ impl<'a> Scene<'a> {
     pub fn beside(&self, id: u32, faces: &[u32], labels: &[u32]) -> impl Iterator<Item = u32> {
         let across = faces.iter().flat_map(|&face| self.adjacency.across(face as usize));
         across.map(|face| labels[face]).filter(move |&label| label != id)
+    }
+
+    /// Whether some faces are a band: a wall that is no wider than its noise, whose normals say more than its
+    /// vertices.
+    pub fn is_band(&self, faces: &[u32]) -> bool {
+        let banded = |&&face: &&u32| self.banded[face as usize];
+        !self.banded.is_empty() && 2 * faces.iter().filter(banded).count() > faces.len()
     }
 
     /// Whether every vertex errs on its own, and that shows.

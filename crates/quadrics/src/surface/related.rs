@@ -37,6 +37,17 @@ impl Shown {
         }
     }
 
+    /// All that some surfaces have, and the edges of their planes.
+    pub fn of(surfaces: &[Surface]) -> Self {
+        let pairs = surfaces.iter().enumerate();
+        let edges = pairs.flat_map(|(i, one)| surfaces[..i].iter().map(move |other| [one, other]));
+        let edges = edges.filter_map(Sweep::edge_of);
+        Self {
+            ways: repeated(surfaces.iter().filter_map(direction).chain(edges), is_parallel, 1),
+            lines: repeated(surfaces.iter().filter_map(axis), is_coaxial, 1),
+        }
+    }
+
     /// The nearest planes, cylinders and cones that stand in what is shown.
     pub fn nearest(&self, points: &[Point]) -> impl Iterator<Item = Surface> {
         let along = self.ways.iter().flat_map(|way| along(points, way));
