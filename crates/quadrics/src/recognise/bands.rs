@@ -255,81 +255,100 @@ mod tests {
     const SIDE: u32 = 24;
     const EDGE: f64 = 1.0 / (SIDE - 1) as f64;
 
-    /// A sheet between two surfaces over a square, its rim one row of faces. Labels are 0 above and 1 below, and
-    /// either on the rim, as noise has it.
-    fn sheet(heights: [fn(f64) -> f64; 2]) -> (Mesh, Vec<u32>) {
-        let at = |k: usize, i: u32, j: u32| {
-            let [x, y] = [i, j].map(|n| f64::from(n) * EDGE);
-            Point::new(x, y, heights[k](x))
-        };
-        let corner = |k: u32, i: u32, j: u32| (k * SIDE + i) * SIDE + j;
-        let positions = (0..2 * SIDE * SIDE)
-            .map(|n| at((n / SIDE / SIDE) as usize, n / SIDE % SIDE, n % SIDE))
-            .collect();
-        let mut faces = Vec::new();
-        let mut labels = Vec::new();
-        let mut quad = |[a, b, c, d]: [u32; 4], own: [u32; 2]| {
-            faces.extend([[a, b, c], [a, c, d]]);
-            labels.extend(own);
-        };
-        for (i, j) in (0..SIDE - 1).flat_map(|i| (0..SIDE - 1).map(move |j| (i, j))) {
-            let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-            quad([a, b, c, d].map(|(i, j)| corner(0, i, j)), [0, 0]);
-            quad([a, d, c, b].map(|(i, j)| corner(1, i, j)), [1, 1]);
-        }
-        let last = SIDE - 1;
-        for n in 0..last {
-            for [from, to] in [
-                [(n, 0), (n + 1, 0)],
-                [(last, n), (last, n + 1)],
-                [(n + 1, last), (n, last)],
-                [(0, n + 1), (0, n)],
-            ] {
-                let [a, b] = [from, to].map(|(i, j)| corner(0, i, j));
-                let [c, d] = [to, from].map(|(i, j)| corner(1, i, j));
-                quad([a, d, c, b], [n % 2, (n / 2) % 2]);
-            }
-        }
-        (Mesh { positions, faces }, labels)
+    fn corner(k: u32, i: u32, j: u32) -> u32 {
+        (k * SIDE + i) * SIDE + j
     }
 
-    /// The regions once bands have been looked for, under noise of that sigma, whose faces above and below lie on
-    /// planes with these normals.
-    fn found(
-        heights: [fn(f64) -> f64; 2],
-        normals: [Vector; 2],
-        sigma: f64,
-    ) -> Vec<(Model, usize)> {
-        let (mesh, mut labels) = sheet(heights);
+    /// The corners of the squares of a side of the sheet.
+    fn quads(k: u32) -> impl Iterator<Item = [u32; 4]> {
+        let all = (0..SIDE - 1).flat_map(|i| (0..SIDE - 1).map(move |j| (i, j)));
+        all.map(move |(i, j)| {
+            [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| corner(k, i, j))
+        })
+    }
+
+    /// A square sheet as thick as a face is wide, its rim one row of faces. Labels are 0 above and 1 below, and
+    /// either on the rim, as noise has it.
+    fn sheet() -> (Mesh, Vec<u32>) {
+        let at = |n: u32| {
+            let [x, y] = [n / SIDE % SIDE, n % SIDE].map(|n| f64::from(n) * EDGE);
+            Point::new(x, y, if n < SIDE * SIDE { EDGE } else { 0.0 })
+        };
+        let last = SIDE - 1;
+        let rim = (0..last).flat_map(|n| {
+            let sides = [[(n, 0), (n + 1, 0)], [(last, n), (last, n + 1)]];
+            let others = [[(n + 1, last), (n, last)], [(0, n + 1), (0, n)]];
+            sides.into_iter().chain(others).map(move |ends| {
+                let [a, b] = ends.map(|(i, j)| corner(0, i, j));
+                let [d, c] = ends.map(|(i, j)| corner(1, i, j));
+                ([a, d, c, b], [n % 2, n / 2 % 2])
+            })
+        });
+        let above = quads(0).map(|quad| (quad, [0, 0]));
+        let below = quads(1).map(|[a, b, c, d]| ([a, d, c, b], [1, 1]));
+        let (quads, labels): (Vec<_>, Vec<_>) = above.chain(below).chain(rim).unzip();
+        let faces = quads.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let positions = (0..2 * SIDE * SIDE).map(at).collect();
+        (Mesh { positions, faces }, labels.concat())
+    }
+
+    /// What is seen of a mesh under noise of that sigma whose regions are two planes.
+    fn seen<T>(
+        (mesh, mut labels): (&Mesh, Vec<u32>),
+        planes: [Plane; 2],
+        (sigma, seed): (f64, u64),
+        look: impl Fn(&mut Scene, &mut Vec<Model>, &mut [u32]) -> T,
+    ) -> (T, Vec<Model>, Vec<u32>) {
         let noise = Noise::uniform(3f64.sqrt() * sigma, 1.0);
-        let working = Working::new(synth::add_noise(&mut Context::new(1), &mesh, &noise).unwrap());
+        let noisy = synth::add_noise(&mut Context::new(seed), mesh, &noise).unwrap();
+        let working = Working::new(noisy);
         let mut scene = Scene::raw(&working);
         scene.evidence.sigma = sigma;
         scene.evidence.general = false;
-        scene.filter();
         scene.filter_for_borders();
-        let plane = |k: usize| {
-            let at = Point::new(0.5, 0.5, heights[k](0.5));
-            Surface::Plane(Plane::through(at, Unit::new_normalize(normals[k])))
-        };
-        let planes = [plane(0), plane(1)];
-        let mut all = models(&scene, &Regions::new(&labels), planes.iter());
-        find(&mut scene, &mut all, &mut labels);
-        let regions = Regions::new(&labels);
-        all.into_iter().zip(regions.iter().map(<[u32]>::len)).collect()
+        let planes = planes.map(Surface::Plane);
+        let mut models = models(&scene, &Regions::new(&labels), planes.iter());
+        (look(&mut scene, &mut models, &mut labels), models, labels)
+    }
+
+    /// A plane across the z axis.
+    fn level(height: f64, normal: Unit) -> Plane {
+        Plane::through(Point::new(0.0, 0.0, height), normal)
     }
 
     #[test]
     fn the_rim_of_a_sheet_is_four_walls_that_stand_on_it() {
-        // As thick as a face is wide, twice the noise.
-        let up = Vector::z();
-        let found = found([|_| EDGE, |_| 0.0], [up, -up], EDGE / 2.0);
-        let walls: Vec<_> = found[2..].iter().filter(|(_, faces)| *faces > SIDE as usize).collect();
-        assert_eq!(walls.len(), 4, "{found:?}");
+        let up: Unit = Vector::z_axis();
+        let (mesh, labels) = sheet();
+        let planes = [level(EDGE, up), level(0.0, -up)];
+        let ((), models, labels) = seen((&mesh, labels), planes, (EDGE / 2.0, 1), find);
+        let regions = Regions::new(&labels);
+        let walls = models.iter().zip(regions.iter()).skip(2);
+        let walls: Vec<_> = walls.filter(|(_, faces)| faces.len() > SIDE as usize).collect();
+        assert_eq!(walls.len(), 4, "{models:?}");
         for (wall, _) in walls {
-            let Surface::Plane(plane) = &wall.surface else { panic!("{wall:?}") };
-            let stands = plane.normal.x.abs().max(plane.normal.y.abs());
-            assert!(stands > 0.99, "{plane:?}");
+            let Surface::Plane(Plane { normal, .. }) = wall.surface else { panic!("{wall:?}") };
+            assert!(normal.x.abs().max(normal.y.abs()) > 0.99, "{normal:?}");
+        }
+    }
+
+    #[test]
+    fn noise_between_two_levels_is_no_wall() {
+        let up: Unit = Vector::z_axis();
+        let (sheet, _) = sheet();
+        let above = 2 * (SIDE - 1) * (SIDE - 1);
+        let mesh = Mesh { faces: sheet.faces[..above as usize].to_vec(), ..sheet };
+        // Two halves of one plane that chance has put 0.6 sigmas apart, with a ragged border.
+        let half = |face: u32| u32::from(face / 2 % (SIDE - 1) > SIDE / 2 + face % 5);
+        let labels: Vec<u32> = (0..above).map(half).collect();
+        let sigma = EDGE;
+        for seed in 0..20 {
+            let planes = [level(EDGE, up), level(EDGE + 0.6 * sigma, up)];
+            let certain = |scene: &mut Scene, models: &mut Vec<Model>, labels: &mut [u32]| {
+                bands(scene, models, labels).iter().map(|band| band.faces.len()).max()
+            };
+            let (longest, ..) = seen((&mesh, labels.clone()), planes, (sigma, seed), certain);
+            assert!(longest.is_none(), "seed {seed}: {longest:?}");
         }
     }
 }
