@@ -15,8 +15,8 @@ const MIXES: f64 = 0.3;
 /// Surfaces look in opposite ways where the cosine of their normals is below minus this.
 const OPPOSED: f64 = 0.5;
 /// Faces of a band, times the squared distance, in sigmas, that three quarters of its corners keep from each other's
-/// surface: from here on it stands between surfaces that might meet. Of those that do not, a fifth are bands under
-/// the noise of sigma 0.01 on 90 % of the vertices, of those that do two thirds (decision 0002).
+/// surface: from here on it stands between surfaces that might meet. Of bands that say less a fifth are right, of
+/// those that say more two thirds (decision 0002).
 const CERTAIN: f64 = 40.0;
 
 const NONE: u32 = u32::MAX;
