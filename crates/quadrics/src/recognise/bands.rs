@@ -22,9 +22,11 @@ use crate::surface::select::{self, Choice};
 const FEWEST: usize = 10;
 /// Least cosine between a surface and the normal of a face, and the mean of those of all its faces.
 const AGREES: f64 = 0.85;
-/// Every how many faces of a band a surface starts to grow, and how often it is fitted again.
+/// Every how many faces of a band a surface starts to grow, how often it is fitted again, and how often what is left
+/// is asked.
 const SEEDS: usize = 4;
 const REFITS: usize = 5;
+const PASSES: usize = 4;
 /// A face is of a surface that its corners lie within so many sigmas of.
 const REACH: f64 = 2.5;
 /// Bands that lie within so many faces of each other may be one.
@@ -71,16 +73,29 @@ struct Part<'a> {
 fn parts<'a>(scene: &Scene, models: &[Model], band: &'a Band) -> Vec<Part<'a>> {
     let mut parts = Vec::new();
     let mut left = vec![true; band.faces.len()];
-    loop {
-        let seeds = (0..left.len() as u32).filter(|&seed| left[seed as usize]).step_by(SEEDS);
-        let grown = seeds.filter_map(|seed| grow(scene, models, band, seed, &left));
-        let Some((surface, places)) = grown.max_by_key(|(_, places)| places.len()) else {
-            return parts;
-        };
-        places.iter().for_each(|&place| left[place as usize] = false);
-        let faces = places.iter().map(|&place| &band.faces[place as usize]).collect();
-        parts.push(Part { surface, faces });
+    for _ in 0..PASSES {
+        // What has grown over a face would grow from it.
+        let mut open = left.clone();
+        let mut all = Vec::new();
+        for seed in (0..band.faces.len() as u32).step_by(SEEDS) {
+            if open[seed as usize]
+                && let Some(grown) = grow(scene, models, band, seed, &left)
+            {
+                grown.1.iter().for_each(|&place| open[place as usize] = false);
+                all.push(grown);
+            }
+        }
+        all.sort_by_key(|(_, places)| std::cmp::Reverse(places.len()));
+        for (surface, mut places) in all {
+            places.retain(|&place| left[place as usize]);
+            if places.len() >= FEWEST {
+                places.iter().for_each(|&place| left[place as usize] = false);
+                let faces = places.iter().map(|&place| &band.faces[place as usize]).collect();
+                parts.push(Part { surface, faces });
+            }
+        }
     }
+    parts
 }
 
 /// What grows from a face of a band over those that are left.
@@ -100,12 +115,13 @@ fn grow(
         let faces: Vec<&Standing> =
             places.iter().map(|&place| &band.faces[place as usize]).collect();
         let own = fit(scene, models, &faces)?;
+        let model = Model { side: side(&own, &faces), surface: own };
         let explains = |place: u32| {
-            left[place as usize] && explains(scene, &own, &faces, &band.faces[place as usize])
+            left[place as usize] && explains(scene, &model, &band.faces[place as usize])
         };
         let grown = band.around(seed, usize::MAX, explains);
         let settled = grown.len() == places.len();
-        (places, surface) = (grown, Some(own));
+        (places, surface) = (grown, Some(model.surface));
         if settled {
             break;
         }
@@ -113,29 +129,38 @@ fn grow(
     (places.len() >= FEWEST).then_some((surface?, places))
 }
 
-/// Whether a face stands as the surface of others does, and lies on it.
-fn explains(scene: &Scene, surface: &Surface, others: &[&Standing], one: &Standing) -> bool {
+/// The cosine between a surface and the normal of a face.
+fn cosine(surface: &Surface, one: &Standing) -> f64 {
+    surface.normal(one.middle()).map_or(0.0, |own| own.dot(&one.normal))
+}
+
+/// +1 where the faces' normals agree with the surface's.
+fn side(surface: &Surface, faces: &[&Standing]) -> f64 {
+    faces.iter().map(|one| cosine(surface, one)).sum::<f64>().signum()
+}
+
+/// Whether a face lies on a surface and stands as it does.
+fn explains(scene: &Scene, model: &Model, one: &Standing) -> bool {
     let near = |corner: &Point| {
-        surface.distance(*corner).is_some_and(|d| d.abs() < REACH * scene.evidence.sigma)
+        let distance = model.surface.distance(*corner);
+        distance.is_some_and(|distance| distance.abs() < REACH * scene.evidence.sigma)
     };
-    let cosine = |one: &Standing| surface.normal(one.middle()).map_or(0.0, |n| n.dot(&one.normal));
-    let side = others.iter().map(|one| cosine(one)).sum::<f64>().signum();
-    one.corners.iter().all(near) && side * cosine(one) > AGREES
+    one.corners.iter().all(near) && model.side * cosine(&model.surface, one) > AGREES
 }
 
 /// The best surface for faces of a band.
 fn fit(scene: &Scene, models: &[Model], band: &[&Standing]) -> Option<Surface> {
-    let mut gathered = Gathered::default();
-    let mut seen: Vec<u32> = Vec::new();
+    let mut corners: Vec<(u32, usize, &Standing)> = Vec::with_capacity(3 * band.len());
     for one in band {
-        for (vertex, corner) in scene.mesh.faces[one.face as usize].into_iter().zip(one.corners) {
-            if !seen.contains(&vertex) {
-                seen.push(vertex);
-                gathered.points.push(corner);
-                gathered.barycentres.push(one.middle());
-                gathered.normals.push(one.normal);
-            }
-        }
+        corners.extend((0..3).map(|k| (scene.mesh.faces[one.face as usize][k], k, *one)));
+    }
+    corners.sort_by_key(|&(vertex, ..)| vertex);
+    corners.dedup_by_key(|&mut (vertex, ..)| vertex);
+    let mut gathered = Gathered::default();
+    for (_, k, one) in corners {
+        gathered.points.push(one.corners[k]);
+        gathered.barycentres.push(one.middle());
+        gathered.normals.push(one.normal);
     }
     gathered.total = gathered.points.len();
     let mut homes: Vec<u32> = band.iter().flat_map(|one| one.homes).collect();
