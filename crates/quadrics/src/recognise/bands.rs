@@ -346,7 +346,7 @@ mod tests {
         let up: Unit = Vector::z_axis();
         let (mesh, labels) = sheet();
         let planes = [level(EDGE, up), level(0.0, -up)];
-        let ((), models, labels) = seen((&mesh, labels), planes, (EDGE / 2.0, 1), find);
+        let ((), models, labels) = seen((&mesh, labels), planes, (EDGE / 3.0, 1), find);
         let regions = Regions::new(&labels);
         let walls = models.iter().zip(regions.iter()).skip(2);
         let walls: Vec<_> = walls.filter(|(_, faces)| faces.len() > SIDE as usize).collect();
