@@ -9,7 +9,7 @@ use crate::mesh::Working;
 use crate::options::{self, Options};
 use crate::partition::{Labels, Regions, separate};
 use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, noise, subdivide};
-use crate::recognise::assign::{self, models};
+use crate::recognise::assign::{self, Model, models};
 use crate::recognise::means::{Cells, gathered};
 use crate::recognise::{
     self, Outcome, bands, carry, evidence, expand, moves, patch, scene::Scene, unshown,
@@ -61,23 +61,33 @@ pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<O
     }
     // Regions that are given or counted stay; on a clean mesh no height field fits as surfaces do.
     if start.is_none() && options.regions.is_none() && !scene.evidence.general {
-        context.timed("patches", |_| {
-            let mut models = models(scene, &Regions::new(&found.labels), found.surfaces.iter());
-            patch::unite(scene, &mut models, &mut found.labels);
-            found.surfaces = models.into_iter().map(|model| model.surface).collect();
-            Ok(())
-        })?;
-    }
-    // Narrow walls show once all others are known.
-    if start.is_none() && options.regions.is_none() && scene.noisy() {
-        context.timed("bands", |_| {
-            let mut models = models(scene, &Regions::new(&found.labels), found.surfaces.iter());
-            bands::find(scene, &mut models, &mut found.labels);
-            found.surfaces = models.into_iter().map(|model| model.surface).collect();
-            Ok(())
-        })?;
+        let unite: Change = |scene, models, labels| patch::unite(scene, models, labels);
+        change(context, "patches", scene, &mut found, unite)?;
+        // Narrow walls show once all others are known.
+        if scene.noisy() {
+            change(context, "bands", scene, &mut found, bands::find)?;
+        }
     }
     Ok(found)
+}
+
+/// What changes regions once they are known.
+type Change = fn(&mut Scene, &mut Vec<Model>, &mut [u32]);
+
+/// Lets a station change the regions that were found.
+fn change(
+    context: &mut Context,
+    stage: &'static str,
+    scene: &mut Scene,
+    found: &mut Outcome,
+    how: Change,
+) -> Result<()> {
+    context.timed(stage, |_| {
+        let mut models = models(scene, &Regions::new(&found.labels), found.surfaces.iter());
+        how(scene, &mut models, &mut found.labels);
+        found.surfaces = models.into_iter().map(|model| model.surface).collect();
+        Ok(())
+    })
 }
 
 /// On a finer mesh.

@@ -85,6 +85,9 @@ fn parts<'a>(scene: &Scene, models: &[Model], band: &'a Band) -> Vec<Part<'a>> {
                 all.push(grown);
             }
         }
+        if all.is_empty() {
+            break;
+        }
         all.sort_by_key(|(_, places)| std::cmp::Reverse(places.len()));
         for (surface, mut places) in all {
             places.retain(|&place| left[place as usize]);

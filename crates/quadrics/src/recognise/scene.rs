@@ -13,7 +13,7 @@ use crate::surface::select::Evidence;
 
 /// A mesh in the unit cube and all that is derived from it once.
 pub struct Scene<'a> {
-    /// Positions and faces.
+    /// Positions and faces; vertices of bands lie on the surfaces beside them.
     pub mesh: Cow<'a, Mesh>,
     /// Areas, raw normals, barycentres.
     pub geometry: &'a Geometry,

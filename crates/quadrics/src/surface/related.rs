@@ -7,7 +7,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::curve::Curve;
-use super::sweep::Sweep;
+use super::sweep::{Sweep, edge};
 use super::{Cylinder, Plane, Surface, axis, direction, start};
 use crate::math::{Point, Unit, frame};
 
@@ -39,9 +39,14 @@ impl Shown {
 
     /// All that some surfaces have, and the edges of their planes.
     pub fn of(surfaces: &[Surface]) -> Self {
-        let pairs = surfaces.iter().enumerate();
-        let edges = pairs.flat_map(|(i, one)| surfaces[..i].iter().map(move |other| [one, other]));
-        let edges = edges.filter_map(Sweep::edge_of);
+        let planes: Vec<&Plane> = surfaces
+            .iter()
+            .filter_map(
+                |surface| if let Surface::Plane(plane) = surface { Some(plane) } else { None },
+            )
+            .collect();
+        let pairs = planes.iter().enumerate();
+        let edges = pairs.flat_map(|(i, a)| planes[..i].iter().filter_map(move |b| edge(a, b)));
         Self {
             ways: repeated(surfaces.iter().filter_map(direction).chain(edges), is_parallel, 1),
             lines: repeated(surfaces.iter().filter_map(axis), is_coaxial, 1),

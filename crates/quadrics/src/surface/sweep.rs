@@ -97,19 +97,9 @@ impl Sweep {
         }
     }
 
-    /// The direction of the edge of two planes.
-    pub fn edge_of(walls: [&Surface; 2]) -> Option<Unit> {
-        match walls {
-            [Surface::Plane(a), Surface::Plane(b)] => {
-                Unit::try_new(a.normal.cross(&b.normal), CROSS)
-            }
-            _ => None,
-        }
-    }
-
     /// Along the edge of two planes.
     fn edge(a: &Plane, b: &Plane) -> Option<Self> {
-        Unit::try_new(a.normal.cross(&b.normal), CROSS).map(Self::along)
+        edge(a, b).map(Self::along)
     }
 
     fn along(direction: Unit) -> Self {
@@ -211,6 +201,11 @@ impl Sweep {
             }
         }
     }
+}
+
+/// The direction of the edge of two planes.
+pub fn edge(a: &Plane, b: &Plane) -> Option<Unit> {
+    Unit::try_new(a.normal.cross(&b.normal), CROSS)
 }
 
 fn is_parallel(one: &Unit, other: &Unit) -> bool {
