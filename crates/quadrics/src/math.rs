@@ -1,6 +1,7 @@
 //! The words of geometry that every module speaks, named once.
 
 pub mod lanes;
+pub mod triangle;
 
 /// A position.
 pub type Point = nalgebra::Point3<f64>;

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Working};
 use crate::options::Options;
 use crate::partition::Labels;
-use crate::prepare::{labels_back, subdivide, to_unit_cube};
+use crate::prepare::{Ordered, labels_back, ordered, subdivide, to_unit_cube};
 use crate::result::Repair;
 use crate::segment::{self, Outcome};
 use crate::surface::Surface;
@@ -63,7 +63,10 @@ pub fn in_cube(
         let positions = mesh.positions.iter().map(|point| into * point).collect();
         let cube = Mesh { positions, faces: mesh.faces.clone() };
         let fine = subdivide(cube, options.max_edge)?;
-        Ok((Working::new(fine.mesh), fine.parents))
+        // Neighbours in space are neighbours in memory, and draws do not depend on the file's order.
+        let Ordered { mesh, former } = ordered(&fine.mesh);
+        let parents: Vec<u32> = former.iter().map(|&face| fine.parents[face as usize]).collect();
+        Ok((Working::new(mesh), parents))
     })?;
     let start = initial_labels
         .map(|labels| parents.iter().map(|&parent| labels[parent as usize]).collect());

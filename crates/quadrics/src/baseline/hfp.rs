@@ -17,6 +17,7 @@ use nalgebra::Matrix3;
 use super::wanted;
 use crate::context::Context;
 use crate::error::Result;
+use crate::math::triangle::Triangle;
 use crate::math::{Unit, Vector};
 use crate::mesh::Working;
 use crate::options::Options;
@@ -210,13 +211,9 @@ impl Forest {
 }
 
 fn cluster(working: &Working, faces: &[u32]) -> Cluster {
-    let geometry = &working.geometry;
-    let mut moments = Moments::about(geometry.barycentres[faces[0] as usize]);
-    let mut normals = Matrix3::zeros();
-    for face in faces.iter().map(|&face| face as usize) {
-        let (normal, area) = (geometry.normals[face], geometry.areas[face]);
-        moments.add_triangle(working.mesh.corners(face), normal, area);
-        normals += normal * normal.transpose() * area;
-    }
-    Cluster { faces: faces.len(), moments, normals }
+    let triangles = working.triangles(faces);
+    let mut moments = Moments::about(working.geometry.barycentres[faces[0] as usize]);
+    moments.add(&triangles);
+    let spread = |t: &Triangle| t.normal * t.normal.transpose() * t.area;
+    Cluster { faces: faces.len(), moments, normals: triangles.iter().map(spread).sum() }
 }

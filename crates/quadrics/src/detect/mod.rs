@@ -6,6 +6,7 @@
 //! explained is not drawn from again.
 
 mod cleanup;
+mod marks;
 mod sample;
 mod score;
 
@@ -22,6 +23,7 @@ use crate::mesh::Working;
 use crate::options::Options;
 use crate::partition::{Labels, UNLABELLED};
 use crate::surface::Surface;
+use marks::Marks;
 use score::{Candidate, Inliers, Tolerance, dual};
 
 /// Probability with which the best shape may have been overlooked (Schnabel: 1 %).
@@ -101,9 +103,7 @@ struct Search<'a> {
     draws: usize,
     drawn: usize,
     pool: BinaryHeap<Entry>,
-    /// Which search last visited a face.
-    marks: Vec<u32>,
-    mark: u32,
+    marks: Marks,
 }
 
 impl<'a> Search<'a> {
@@ -118,8 +118,7 @@ impl<'a> Search<'a> {
             draws: 0,
             drawn: 0,
             pool: BinaryHeap::new(),
-            marks: vec![0; working.len()],
-            mark: 0,
+            marks: Marks::new(working),
         }
     }
 
@@ -134,11 +133,6 @@ impl<'a> Search<'a> {
         (1.0 - hit).powi(self.draws as i32) < OVERLOOKED
     }
 
-    fn next_mark(&mut self) -> u32 {
-        self.mark += 1;
-        self.mark
-    }
-
     /// Draws a batch of candidates and bounds their scores.
     fn draw(&mut self, context: &mut Context) {
         let rng = &mut context.rng;
@@ -150,9 +144,8 @@ impl<'a> Search<'a> {
         let mut drawn = Vec::with_capacity(BATCH);
         for _ in 0..BATCH {
             let start = self.left[rng.random_range(0..whole)];
-            self.mark += 1;
             let (labels, marks) = (&self.labels, &mut self.marks);
-            drawn.push(sample::neighbourhood(self.working, labels, start, rng, marks, self.mark));
+            drawn.push(sample::neighbourhood(self.working, labels, start, rng, marks));
         }
         let bounded: Vec<(f64, Candidate)> = drawn
             .par_iter()
@@ -196,8 +189,7 @@ impl<'a> Search<'a> {
     }
 
     fn inliers(&mut self, candidate: &Candidate) -> Inliers {
-        let mark = self.next_mark();
-        candidate.inliers(self.working, &self.tolerance, &self.labels, &mut self.marks, mark)
+        candidate.inliers(self.working, &self.tolerance, &self.labels, &mut self.marks)
     }
 
     /// Labels the inliers of a candidate, after a few draws among them for a better one.

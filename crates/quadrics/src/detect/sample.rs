@@ -6,6 +6,7 @@
 use nalgebra::Matrix3;
 use rand::{Rng, RngExt};
 
+use super::marks::Marks;
 use crate::math::{Point, Unit, Vector};
 use crate::mesh::Working;
 use crate::partition::UNLABELLED;
@@ -25,23 +26,22 @@ const HALF_ANGLES_DEG: [f64; 2] = [2.0, 87.0];
 const PARALLEL: f64 = 1e-3;
 
 /// Up to four different faces out of one connected neighbourhood of unlabelled faces around
-/// `start`, which is the first of them. `marks` are scratch: not `mark` anywhere.
+/// `start`, which is the first of them.
 pub fn neighbourhood(
     working: &Working,
     labels: &[u32],
     start: u32,
     rng: &mut impl Rng,
-    marks: &mut [u32],
-    mark: u32,
+    marks: &mut Marks,
 ) -> Vec<u32> {
     let size = NEIGHBOURHOODS[rng.random_range(0..NEIGHBOURHOODS.len())];
     let mut found = vec![start];
-    marks[start as usize] = mark;
+    marks.begin();
+    marks.is_new_face(start);
     let mut next = 0;
     while next < found.len() && found.len() < size {
         for other in working.adjacency.across(found[next] as usize) {
-            if labels[other] == UNLABELLED && marks[other] != mark {
-                marks[other] = mark;
+            if labels[other] == UNLABELLED && marks.is_new_face(other as u32) {
                 found.push(other as u32);
             }
         }

@@ -1,5 +1,6 @@
 //! How much of the mesh a shape explains: an estimate on a random subset, then connected inliers.
 
+use super::marks::Marks;
 use crate::math::{Point, Vector};
 use crate::mesh::Working;
 use crate::partition::UNLABELLED;
@@ -91,18 +92,17 @@ impl Candidate {
     }
 
     /// The unlabelled compatible faces that hang together with `start`, across edges and corners:
-    /// one noisy face must not cut a surface in two. `marks` are scratch: not `mark` anywhere.
+    /// one noisy face must not cut a surface in two.
     pub fn inliers(
         &self,
         working: &Working,
         tolerance: &Tolerance,
         labels: &[u32],
-        marks: &mut [u32],
-        mark: u32,
+        marks: &mut Marks,
     ) -> Inliers {
         for_shape!(&self.surface, shape => {
             let weigh = |face: usize| weight(shape, self.side, tolerance, dual(working, face));
-            grow(working, labels, self.start, marks, mark, weigh)
+            grow(working, labels, self.start, marks, weigh)
         }, else Inliers::default())
     }
 }
@@ -125,33 +125,36 @@ fn grow(
     working: &Working,
     labels: &[u32],
     start: u32,
-    marks: &mut [u32],
-    mark: u32,
+    marks: &mut Marks,
     weigh: impl Fn(usize) -> f64,
 ) -> Inliers {
     let mut found = Inliers::default();
     if labels[start as usize] != UNLABELLED {
         return found;
     }
+    marks.begin();
+    marks.is_new_face(start);
     found.score = weigh(start as usize);
     found.faces.push(start);
-    marks[start as usize] = mark;
     let mut next = 0;
     while next < found.faces.len() {
-        let corners = working.mesh.faces[found.faces[next] as usize];
-        next += 1;
-        for other in corners.into_iter().flat_map(|corner| working.adjacency.around(corner)) {
-            let face = *other as usize;
-            if marks[face] == mark || labels[face] != UNLABELLED {
+        for corner in working.mesh.faces[found.faces[next] as usize] {
+            // All faces of a vertex are looked at from the first of them.
+            if !marks.is_new_vertex(corner) {
                 continue;
             }
-            marks[face] = mark;
-            let weight = weigh(face);
-            if weight > 0.0 {
-                found.score += weight;
-                found.faces.push(*other);
+            for &face in working.adjacency.around(corner) {
+                if labels[face as usize] != UNLABELLED || !marks.is_new_face(face) {
+                    continue;
+                }
+                let weight = weigh(face as usize);
+                if weight > 0.0 {
+                    found.score += weight;
+                    found.faces.push(face);
+                }
             }
         }
+        next += 1;
     }
     found
 }

@@ -1,8 +1,8 @@
 //! The total error of a segmentation whoever made it (paper, eq. 1 to 3).
 
 use crate::error::Result;
-use crate::math::{Point, Vector};
-use crate::mesh::{Geometry, Mesh};
+use crate::math::triangle::Triangle;
+use crate::mesh::Mesh;
 use crate::partition::Regions;
 use crate::prepare::to_unit_cube;
 use crate::segment::Proxy;
@@ -31,72 +31,57 @@ pub fn energy(
     beta: f64,
 ) -> Result<Energy> {
     let into = to_unit_cube(mesh)?;
-    let positions = mesh.positions.iter().map(|point| into * point).collect();
-    let cube = Mesh { positions, faces: mesh.faces.clone() };
-    let geometry = Geometry::new(&cube);
+    let corners = |face: usize| mesh.corners(face).map(|corner| into * corner);
+    let all: Vec<Triangle> = (0..mesh.faces.len()).map(|f| Triangle::new(corners(f))).collect();
+    let area = |faces: &[Triangle]| faces.iter().map(|face| face.area).sum::<f64>();
     let (mut total, mut covered) = (0.0, 0.0);
     for (faces, surface) in Regions::new(labels).iter().zip(surfaces) {
         let Some(surface) = surface.filter(|surface| !matches!(surface, Surface::FreeForm)) else {
             continue;
         };
-        let region = Region { mesh: &cube, geometry: &geometry, faces };
-        total += region.error(&surface.transformed(&into), beta);
-        covered += faces.iter().map(|&face| geometry.areas[face as usize]).sum::<f64>();
+        let triangles: Vec<_> = faces.iter().map(|&face| all[face as usize]).collect();
+        total += error(&surface.transformed(&into), &triangles, beta);
+        covered += area(&triangles);
     }
-    let without_surface = (1.0 - covered / geometry.areas.iter().sum::<f64>()).max(0.0);
+    let without_surface = (1.0 - covered / area(&all)).max(0.0);
     Ok(Energy { total, without_surface })
 }
 
-struct Region<'a> {
-    mesh: &'a Mesh,
-    geometry: &'a Geometry,
-    faces: &'a [u32],
-}
-
-impl Region<'_> {
-    fn error(&self, surface: &Surface, beta: f64) -> f64 {
-        let flip = self.faces.iter().map(|&face| self.agreement(surface, face)).sum::<f64>() < 0.0;
-        match (surface, surface.quadric()) {
-            (Surface::Plane(plane), _) => {
-                let mut plane = plane.clone();
-                if flip {
-                    (plane.normal, plane.offset) = (-plane.normal, -plane.offset);
-                }
-                self.sum(|c, n, a| Proxy::Plane(plane.clone()).error(c, n, a, beta))
+fn error(surface: &Surface, faces: &[Triangle], beta: f64) -> f64 {
+    let flip = faces.iter().map(|face| agreement(surface, face)).sum::<f64>() < 0.0;
+    match (surface, surface.quadric()) {
+        (Surface::Plane(plane), _) => {
+            let mut plane = plane.clone();
+            if flip {
+                (plane.normal, plane.offset) = (-plane.normal, -plane.offset);
             }
-            (_, Some(quadric)) => {
-                let proxy = Proxy::Quadric(if flip { quadric.flipped() } else { quadric });
-                self.sum(|corners, normal, area| proxy.error(corners, normal, area, beta))
-            }
-            (Surface::Torus(torus), None) => {
-                let sign = if flip { -1.0 } else { 1.0 };
-                self.sum(|c, n, area| torus_error(torus, c, n * sign, beta) * area)
-            }
-            _ => 0.0,
+            Proxy::Plane(plane).errors(faces, beta).iter().sum()
         }
-    }
-
-    /// How much of a face's area looks the way the surface does.
-    fn agreement(&self, surface: &Surface, face: u32) -> f64 {
-        let face = face as usize;
-        let normal = surface.normal(self.geometry.barycentres[face]);
-        normal.map_or(0.0, |n| n.dot(&self.geometry.normals[face]) * self.geometry.areas[face])
-    }
-
-    fn sum(&self, error: impl Fn([Point; 3], Vector, f64) -> f64) -> f64 {
-        let of = |&face: &u32| {
-            let (face, geometry) = (face as usize, self.geometry);
-            error(self.mesh.corners(face), geometry.normals[face], geometry.areas[face])
-        };
-        self.faces.iter().map(of).sum()
+        (_, Some(quadric)) => {
+            let proxy = Proxy::Quadric(if flip { quadric.flipped() } else { quadric });
+            proxy.errors(faces, beta).iter().sum()
+        }
+        (Surface::Torus(torus), None) => {
+            let sign = if flip { -1.0 } else { 1.0 };
+            faces.iter().map(|face| torus_error(torus, face, sign, beta)).sum()
+        }
+        _ => 0.0,
     }
 }
 
-fn torus_error(torus: &Torus, corners: [Point; 3], normal: Vector, beta: f64) -> f64 {
-    quadrature::mean(corners, |point| {
+/// How much of a face's area looks the way the surface does.
+fn agreement(surface: &Surface, face: &Triangle) -> f64 {
+    let normal = surface.normal(face.barycentre());
+    normal.map_or(0.0, |n| n.dot(&face.normal) * face.area)
+}
+
+fn torus_error(torus: &Torus, face: &Triangle, sign: f64, beta: f64) -> f64 {
+    let mean = quadrature::mean(face.corners, |point| {
         // On the axis there is no normal: nothing deviates more than the opposite one.
-        let deviation =
-            torus.normal(point).map_or(4.0, |n| (n.into_inner() - normal).norm_squared());
+        let deviation = torus
+            .normal(point)
+            .map_or(4.0, |n| (n.into_inner() - face.normal * sign).norm_squared());
         torus.distance(point).powi(2) + beta * deviation
-    })
+    });
+    mean * face.area
 }

@@ -132,6 +132,12 @@ impl Packet {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
+    /// Scalar products, one by one.
+    #[inline(always)]
+    pub fn times(self, other: Self) -> Lanes {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
     /// Vector products.
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::Mesh;
+use crate::math::triangle::Triangle;
 use crate::math::{Point, Vector};
 
 /// Per-face quantities as flat arrays.
@@ -23,12 +24,8 @@ impl Geometry {
             .into_par_iter()
             .with_min_len(1024)
             .map(|face| {
-                let [a, b, c] = mesh.corners(face);
-                let cross = (b - a).cross(&(c - a));
-                let length = cross.norm();
-                let normal = if length > 0.0 { cross / length } else { Vector::zeros() };
-                let barycentre = Point::from((a.coords + b.coords + c.coords) / 3.0);
-                (barycentre, (normal, length / 2.0))
+                let triangle = Triangle::new(mesh.corners(face));
+                (triangle.barycentre(), (triangle.normal, triangle.area))
             })
             .unzip();
         Self { barycentres, normals, areas }

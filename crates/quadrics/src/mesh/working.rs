@@ -1,6 +1,7 @@
 //! A mesh together with what follows from it: what every station works on.
 
 use super::{Adjacency, Geometry, Mesh};
+use crate::math::triangle::Triangle;
 
 /// A mesh, its per-face quantities and its neighbourhoods, computed once.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +27,18 @@ impl Working {
     /// Number of faces.
     pub fn len(&self) -> usize {
         self.mesh.faces.len()
+    }
+
+    /// A face on its own.
+    #[inline]
+    pub fn triangle(&self, face: u32) -> Triangle {
+        let (face, Geometry { normals, areas, .. }) = (face as usize, &self.geometry);
+        Triangle { corners: self.mesh.corners(face), normal: normals[face], area: areas[face] }
+    }
+
+    /// Some faces.
+    pub fn triangles<'f>(&self, faces: impl IntoIterator<Item = &'f u32>) -> Vec<Triangle> {
+        faces.into_iter().map(|&face| self.triangle(face)).collect()
     }
 
     /// Visits the vertices at the other ends of a vertex's edges, each once or twice.

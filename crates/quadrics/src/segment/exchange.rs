@@ -1,12 +1,13 @@
-//! Insertion and merging once the loop has converged: a region too many goes where one is missing.
+//! Insertion and merging when the loop has settled: a region too many goes where one is missing.
 //!
 //! Lloyd's iteration moves boundaries and leaves regions where the start has put them. Insertion where
 //! a region errs too much and merging down to the wanted number are the paper's own operators
 //! (section 4.3(3) and (4)); here the total error decides. As the paper has it only the regions in
 //! question are regrouped, so that an exchange costs little.
 
+use super::fit::Fitted;
 use super::insert::split;
-use super::merge::merge;
+use super::merge::Unions;
 use super::{State, Task};
 use crate::context::Context;
 use crate::error::Result;
@@ -15,38 +16,53 @@ use crate::options::Options;
 /// Exchanges at most.
 const EXCHANGES: usize = 20;
 /// The regions that fit worst are tried, so many of them.
-const TRIES: usize = 3;
+const TRIES: usize = 6;
 
-/// Exchanges regions as long as the total error falls.
+/// Exchanges regions as long as the total error falls; `None` if it does not at once.
 ///
 /// # Errors
 /// [`crate::Error::Cancelled`].
-pub fn exchange(context: &mut Context, task: &Task, mut state: State) -> Result<State> {
-    for _ in 0..EXCHANGES {
-        match once(context, task, &state)? {
-            Some(better) => state = better,
-            None => break,
-        }
-    }
-    Ok(state)
-}
-
-/// A split of a region that fits badly and the cheapest merge, if together they lower the error.
-fn once(context: &mut Context, task: &Task, state: &State) -> Result<Option<State>> {
-    let count = state.regions.len();
+pub fn exchange(context: &mut Context, task: &Task, state: &State) -> Result<Option<State>> {
     // The error alone decides: planes of nearly one direction are not merged for that.
     let options = Options { merge_angle_deg: 0.0, ..task.options.clone() };
     let task = &Task { options: &options, ..*task };
-    let mut worst: Vec<usize> = (0..count).filter(|&r| state.regions[r].faces.len() > 1).collect();
+    let unions = Unions::new(task, &state.labels, &state.regions);
+    let mut best = once(context, task, state, &unions)?;
+    for _ in 1..EXCHANGES {
+        let Some((state, unions)) = &best else { break };
+        match once(context, task, state, unions)? {
+            Some(better) => best = Some(better),
+            None => break,
+        }
+    }
+    Ok(best.map(|(state, _)| state))
+}
+
+/// A split of a region that fits badly and the cheapest merge, if together they lower the error.
+fn once(
+    context: &mut Context,
+    task: &Task,
+    state: &State,
+    unions: &Unions,
+) -> Result<Option<(State, Unions)>> {
+    let count = state.regions.len();
+    // A split saves no more than the region's error, and the merge that pays for it costs that much.
+    let is_worth_it = |&region: &usize| {
+        let Fitted { faces, error, .. } = &state.regions[region];
+        faces.len() > 1 && unions.cheapest(region).is_none_or(|cost| *error > cost)
+    };
+    let mut worst: Vec<usize> = (0..count).filter(is_worth_it).collect();
     worst.sort_by(|&i, &j| state.regions[j].mean_error().total_cmp(&state.regions[i].mean_error()));
     for &region in worst.iter().take(TRIES) {
         let State { mut labels, mut regions } = state.clone();
+        let mut unions = unions.clone();
         split(task, &mut labels, &mut regions, region);
+        unions.split(task, &labels, &regions, [region, count]);
         let step = || context.step("segment", 0.9);
-        let regions = merge(task, &mut labels, regions, count, step)?;
+        let regions = unions.merge(task, &mut labels, regions, count, step)?;
         let next = State { labels, regions };
         if lower(task, next.energy(), state.energy()) {
-            return Ok(Some(next));
+            return Ok(Some((next, unions)));
         }
     }
     Ok(None)

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::energy::Proxy;
 use super::{Metric, Task};
+use crate::math::triangle::Triangle;
 use crate::math::{Point, Unit, Vector};
 use crate::surface::moments::Moments;
 use crate::surface::planarity::Spread;
@@ -43,7 +44,7 @@ pub struct Fitted {
 impl Fitted {
     /// A region that is approximated by `proxy`.
     pub fn new(task: &Task, faces: Vec<u32>, patch: Patch, proxy: Proxy) -> Self {
-        let errors: Vec<f64> = faces.iter().map(|&face| task.error(&proxy, face)).collect();
+        let errors = task.errors(&proxy, &task.working.triangles(&faces));
         let error = errors.iter().sum();
         Self { faces, patch, proxy, errors, error, seed: OnceLock::new() }
     }
@@ -70,11 +71,9 @@ impl Patch {
         }
         let middle = if area > 0.0 { weighted / area } else { Vector::zeros() };
         let mut patch = Self { moments: Moments::about(middle.into()), spread: Spread::default() };
-        for face in faces.iter().map(|&face| face as usize) {
-            let corners = task.working.mesh.corners(face);
-            patch.moments.add_triangle(corners, geometry.normals[face], geometry.areas[face]);
-            patch.spread.add_triangle(corners);
-        }
+        let triangles = task.working.triangles(faces);
+        patch.moments.add(&triangles);
+        triangles.iter().for_each(|triangle| patch.spread.add_triangle(triangle.corners));
         patch
     }
 
@@ -88,7 +87,7 @@ impl Patch {
 
     /// The optimal proxy of these faces: a plane below the planarity limit of eq. 4, else the
     /// quadric of least error among those of the algebraic fit (a plane is one of them).
-    pub fn proxy<'f>(&self, task: &Task, faces: impl Fn() -> FaceIter<'f>) -> Proxy {
+    pub fn proxy(&self, task: &Task, sample: impl FnOnce() -> Vec<Triangle>) -> Proxy {
         // Faces without area lie anywhere in space: any plane through them does.
         let any = || Plane::through(Point::origin(), Unit::new_unchecked(Vector::z()));
         if task.metric == Metric::Normals {
@@ -103,7 +102,8 @@ impl Patch {
         }
         let flat = Proxy::Quadric(plane.quadric());
         let curved = taubin::quadrics(&self.moments).into_iter().take(CANDIDATES);
-        let error = |proxy: &Proxy| faces().map(|&face| task.error(proxy, face)).sum::<f64>();
+        let sample = sample();
+        let error = |proxy: &Proxy| task.errors(proxy, &sample).iter().sum::<f64>();
         std::iter::once(flat)
             .chain(curved.map(Proxy::Quadric))
             .map(|proxy| (error(&proxy), proxy))
@@ -113,12 +113,9 @@ impl Patch {
     }
 }
 
-/// Some of a region's faces.
-pub type FaceIter<'f> = Box<dyn Iterator<Item = &'f u32> + 'f>;
-
 /// About `count` of some faces, evenly.
-pub fn sample(faces: &[u32], count: usize) -> FaceIter<'_> {
-    Box::new(faces.iter().step_by(step(faces.len(), count)))
+pub fn sample(task: &Task, faces: &[u32], count: usize) -> Vec<Triangle> {
+    task.working.triangles(faces.iter().step_by(step(faces.len(), count)))
 }
 
 /// From one face of a sample of about `count` to the next.
@@ -129,7 +126,7 @@ pub fn step(faces: usize, count: usize) -> usize {
 /// Fits a proxy to some faces.
 pub fn fit(task: &Task, faces: Vec<u32>) -> Fitted {
     let patch = Patch::new(task, &faces);
-    let proxy = patch.proxy(task, || sample(&faces, SAMPLE));
+    let proxy = patch.proxy(task, || sample(task, &faces, SAMPLE));
     Fitted::new(task, faces, patch, proxy)
 }
 

@@ -9,6 +9,7 @@ use super::energy::Proxy;
 use super::fit::{Fitted, Patch, sample, step};
 use crate::error::Result;
 use crate::math::Unit;
+use crate::math::triangle::Triangle;
 
 /// Faces of a region that a merge is judged by: most of the pairs are far from the cheapest.
 const SAMPLE: usize = 50;
@@ -25,6 +26,10 @@ struct Union {
     proxy: Proxy,
 }
 
+/// What merging any two adjacent regions of a partition would do.
+#[derive(Clone)]
+pub struct Unions(BTreeMap<Couple, Union>);
+
 /// Merges pairs of adjacent regions until `count` are left, or none is adjacent to another.
 ///
 /// First adjacent planes whose normals differ by no more than `merge_angle_deg`, then the pair of
@@ -37,52 +42,123 @@ pub fn merge(
     labels: &mut [u32],
     regions: Vec<Fitted>,
     count: usize,
-    mut step: impl FnMut() -> Result<()>,
+    step: impl FnMut() -> Result<()>,
 ) -> Result<Vec<Fitted>> {
-    let mut alive: Vec<Option<Fitted>> = regions.into_iter().map(Some).collect();
-    let mut left = alive.len();
-    if left <= count {
-        return Ok(alive.into_iter().flatten().collect());
+    if regions.len() <= count {
+        return Ok(regions);
     }
-    let mut unions = unions(task, &alive, &couples(task, labels));
-    while left > count {
-        step()?;
-        let by_order = |one: &(&Couple, &Union), other: &(&Couple, &Union)| {
-            let ((plane, cost), (other_plane, other_cost)) = (one.1.order, other.1.order);
-            other_plane.cmp(&plane).then(cost.total_cmp(&other_cost)).then(one.0.cmp(other.0))
-        };
-        let Some(couple) = unions.iter().min_by(by_order).map(|(&couple, _)| couple) else { break };
-        let union = unions.remove(&couple).expect("it was found there");
-        join(task, &mut alive, labels, couple, union);
-        left -= 1;
-        renew(task, &alive, &mut unions, couple);
-    }
-    Ok(compacted(alive, labels))
+    let mut unions = Unions::new(task, labels, &regions);
+    unions.merge(task, labels, regions, count, step)
 }
 
-/// All pairs of regions that share an edge.
-fn couples(task: &Task, labels: &[u32]) -> Vec<Couple> {
-    let mut couples: Vec<Couple> = (0..labels.len())
-        .flat_map(|face| task.working.adjacency.across(face).map(move |other| (face, other)))
+impl Unions {
+    /// Those of all adjacent regions.
+    pub fn new(task: &Task, labels: &[u32], regions: &[Fitted]) -> Self {
+        Self(unions(task, regions, &couples(task, labels, 0..labels.len())))
+    }
+
+    /// The least increase of the error by a merge of two others than `region`.
+    pub fn cheapest(&self, region: usize) -> Option<f64> {
+        let apart = |&(a, b): &Couple| a as usize != region && b as usize != region;
+        let others = self.0.iter().filter(|(couple, _)| apart(couple));
+        others.map(|(_, union)| union.order.1).min_by(f64::total_cmp)
+    }
+
+    /// Forgets those of one region, which has been split, and looks at those of its two parts.
+    pub fn split(&mut self, task: &Task, labels: &[u32], regions: &[Fitted], parts: [usize; 2]) {
+        let [region, _] = parts.map(|part| part as u32);
+        self.0.retain(|&(a, b), _| a != region && b != region);
+        let faces = parts.iter().flat_map(|&part| &regions[part].faces);
+        let faces = faces.map(|&face| face as usize);
+        self.0.extend(unions(task, regions, &couples(task, labels, faces)));
+    }
+
+    /// As [`merge`]; afterwards these are the unions of what is left.
+    ///
+    /// # Errors
+    /// Those of [`merge`].
+    pub fn merge(
+        &mut self,
+        task: &Task,
+        labels: &mut [u32],
+        mut regions: Vec<Fitted>,
+        count: usize,
+        mut step: impl FnMut() -> Result<()>,
+    ) -> Result<Vec<Fitted>> {
+        let mut left = regions.len();
+        while left > count {
+            step()?;
+            let by_order = |one: &(&Couple, &Union), other: &(&Couple, &Union)| {
+                let ((plane, cost), (other_plane, other_cost)) = (one.1.order, other.1.order);
+                other_plane.cmp(&plane).then(cost.total_cmp(&other_cost)).then(one.0.cmp(other.0))
+            };
+            let least = self.0.iter().min_by(by_order).map(|(&couple, _)| couple);
+            let Some(couple) = least else { break };
+            let union = self.0.remove(&couple).expect("it was found there");
+            join(task, &mut regions, labels, couple, union);
+            left -= 1;
+            self.joined(task, &regions, couple);
+        }
+        Ok(self.compacted(regions, labels))
+    }
+
+    /// The pairs of the merged region, and of nobody else, are looked at again.
+    fn joined(&mut self, task: &Task, regions: &[Fitted], (i, j): Couple) {
+        let touched = |&(a, b): &Couple| a == i || a == j || b == i || b == j;
+        let mut again: Vec<Couple> = self.0.keys().copied().filter(touched).collect();
+        self.0.retain(|couple, _| !touched(couple));
+        for (a, b) in &mut again {
+            let other = if *a == i || *a == j { *b } else { *a };
+            (*a, *b) = (i.min(other), i.max(other));
+        }
+        again.sort_unstable();
+        again.dedup();
+        self.0.extend(unions(task, regions, &again));
+    }
+
+    /// What has faces left, numbered anew.
+    fn compacted(&mut self, regions: Vec<Fitted>, labels: &mut [u32]) -> Vec<Fitted> {
+        let mut numbers = Vec::with_capacity(regions.len());
+        let mut next = 0;
+        for region in &regions {
+            region.faces.iter().for_each(|&face| labels[face as usize] = next);
+            numbers.push(next);
+            next += u32::from(!region.faces.is_empty());
+        }
+        let number = |region: u32| numbers[region as usize];
+        let known = std::mem::take(&mut self.0).into_iter();
+        self.0 = known.map(|((i, j), union)| ((number(i), number(j)), union)).collect();
+        regions.into_iter().filter(|region| !region.faces.is_empty()).collect()
+    }
+}
+
+/// All pairs of regions that share an edge of some faces.
+fn couples(task: &Task, labels: &[u32], faces: impl Iterator<Item = usize>) -> Vec<Couple> {
+    let across = |face| task.working.adjacency.across(face).map(move |other| (face, other));
+    let mut couples: Vec<Couple> = faces
+        .flat_map(across)
         .map(|(face, other)| (labels[face], labels[other]))
-        .filter(|(one, other)| one < other)
+        .filter(|(one, other)| one != other)
+        .map(|(one, other)| (one.min(other), one.max(other)))
         .collect();
     couples.sort_unstable();
     couples.dedup();
     couples
 }
 
-fn unions(task: &Task, alive: &[Option<Fitted>], of: &[Couple]) -> BTreeMap<Couple, Union> {
-    let region = |i: u32| alive[i as usize].as_ref().expect("only live regions have neighbours");
+fn unions(task: &Task, regions: &[Fitted], of: &[Couple]) -> BTreeMap<Couple, Union> {
+    let region = |i: u32| &regions[i as usize];
     of.par_iter().map(|&(i, j)| ((i, j), union(task, region(i), region(j)))).collect()
 }
 
 fn union(task: &Task, one: &Fitted, other: &Fitted) -> Union {
     let patch = one.patch.joined(&other.patch);
-    let proxy = patch
-        .proxy(task, || Box::new(sample(&one.faces, SAMPLE).chain(sample(&other.faces, SAMPLE))));
-    let increase =
-        || [one, other].map(|region| increase(task, &proxy, region)).iter().sum::<f64>().abs();
+    let samples = [one, other].map(|region| sample(task, &region.faces, SAMPLE));
+    let proxy = patch.proxy(task, || samples.concat());
+    let increase = || {
+        let of = |(region, sample): (_, &Vec<_>)| increase(task, &proxy, region, sample);
+        [one, other].into_iter().zip(&samples).map(of).sum::<f64>().abs()
+    };
     let order = match (&one.proxy, &other.proxy) {
         (Proxy::Plane(a), Proxy::Plane(b)) => {
             let angle = between(&a.normal, &b.normal).to_degrees();
@@ -94,10 +170,11 @@ fn union(task: &Task, one: &Fitted, other: &Fitted) -> Union {
 }
 
 /// What a region's error grows by under another proxy, from a sample of its faces.
-fn increase(task: &Task, proxy: &Proxy, region: &Fitted) -> f64 {
+fn increase(task: &Task, proxy: &Proxy, region: &Fitted, sample: &[Triangle]) -> f64 {
     let step = step(region.faces.len(), SAMPLE);
-    let faces = region.faces.iter().zip(&region.errors).step_by(step);
-    faces.map(|(&face, error)| task.error(proxy, face) - error).sum::<f64>() * step as f64
+    let before = region.errors.iter().step_by(step);
+    let errors = task.errors(proxy, sample);
+    errors.iter().zip(before).map(|(error, before)| error - before).sum::<f64>() * step as f64
 }
 
 /// Well conditioned for small angles, where the arc cosine is not.
@@ -105,46 +182,11 @@ fn between(a: &Unit, b: &Unit) -> f64 {
     a.cross(b).norm().atan2(a.dot(b))
 }
 
-/// The lesser region takes over the other's faces.
-fn join(
-    task: &Task,
-    alive: &mut [Option<Fitted>],
-    labels: &mut [u32],
-    (i, j): Couple,
-    union: Union,
-) {
-    let one = alive[i as usize].take().expect("alive");
-    let other = alive[j as usize].take().expect("alive");
-    other.faces.iter().for_each(|&face| labels[face as usize] = i);
-    let mut faces = one.faces;
-    faces.extend(other.faces);
+/// The lesser region takes over the other's faces; the other is left without any.
+fn join(task: &Task, regions: &mut [Fitted], labels: &mut [u32], (i, j): Couple, union: Union) {
+    let [mut faces, others] = [i, j].map(|r| std::mem::take(&mut regions[r as usize].faces));
+    others.iter().for_each(|&face| labels[face as usize] = i);
+    faces.extend(others);
     faces.sort_unstable();
-    alive[i as usize] = Some(Fitted::new(task, faces, union.patch, union.proxy));
-}
-
-/// The pairs of the merged region, and of nobody else, are looked at again.
-fn renew(
-    task: &Task,
-    alive: &[Option<Fitted>],
-    known: &mut BTreeMap<Couple, Union>,
-    (i, j): Couple,
-) {
-    let touched = |&(a, b): &Couple| a == i || a == j || b == i || b == j;
-    let mut again: Vec<Couple> = known.keys().copied().filter(touched).collect();
-    known.retain(|couple, _| !touched(couple));
-    for (a, b) in &mut again {
-        let other = if *a == i || *a == j { *b } else { *a };
-        (*a, *b) = (i.min(other), i.max(other));
-    }
-    again.sort_unstable();
-    again.dedup();
-    known.extend(unions(task, alive, &again));
-}
-
-fn compacted(alive: Vec<Option<Fitted>>, labels: &mut [u32]) -> Vec<Fitted> {
-    let regions: Vec<Fitted> = alive.into_iter().flatten().collect();
-    for (label, region) in regions.iter().enumerate() {
-        region.faces.iter().for_each(|&face| labels[face as usize] = label as u32);
-    }
-    regions
+    regions[i as usize] = Fitted::new(task, faces, union.patch, union.proxy);
 }

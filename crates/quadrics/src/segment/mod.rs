@@ -23,13 +23,17 @@ use fit::{Fitted, fit_all};
 
 use crate::context::Context;
 use crate::error::{Error, Result};
+use crate::math::triangle::Triangle;
 use crate::mesh::Working;
-use crate::options::Options;
+use crate::options::{Options, Seeds};
 use crate::partition::{Labels, Regions, UNLABELLED, components, hand_out};
+use crate::surface::Plane;
 
 /// Rounds without a new least energy after which the loop only wanders around its best partition.
-const PATIENCE: usize = 10;
-/// Rounds before regions are exchanged: of their errors most come from the start until then.
+const PATIENCE: usize = 4;
+/// The same where it grows from seed triangles, which oscillate on the way down (Fig. 5).
+const PATIENCE_OF_TRIANGLES: usize = 10;
+/// Rounds before regions are exchanged, and between exchanges: errors of the start are gone by then.
 const SETTLING: usize = 3;
 
 /// What the loop ends with.
@@ -63,18 +67,31 @@ pub(crate) struct Task<'a> {
 impl Task<'_> {
     /// `E(t, P)` of the metric.
     pub fn error(&self, proxy: &Proxy, face: u32) -> f64 {
-        let (face, geometry) = (face as usize, &self.working.geometry);
-        if let (Metric::Normals, Proxy::Plane(plane)) = (self.metric, proxy) {
-            let deviation = plane.normal.into_inner() - geometry.normals[face];
-            return geometry.areas[face] * deviation.norm_squared();
+        let triangle = self.working.triangle(face);
+        match (self.metric, proxy) {
+            (Metric::Normals, Proxy::Plane(plane)) => deviation(plane, &triangle),
+            _ => proxy.error(&triangle, self.options.beta),
         }
-        let corners = self.working.mesh.corners(face);
-        proxy.error(corners, geometry.normals[face], geometry.areas[face], self.options.beta)
+    }
+
+    /// `E(t, P)` of several faces.
+    pub fn errors(&self, proxy: &Proxy, triangles: &[Triangle]) -> Vec<f64> {
+        match (self.metric, proxy) {
+            (Metric::Normals, Proxy::Plane(plane)) => {
+                triangles.iter().map(|triangle| deviation(plane, triangle)).collect()
+            }
+            _ => proxy.errors(triangles, self.options.beta),
+        }
     }
 
     pub fn total_error(&self, proxy: &Proxy, faces: &[u32]) -> f64 {
-        faces.iter().map(|&face| self.error(proxy, face)).sum()
+        self.errors(proxy, &self.working.triangles(faces)).iter().sum()
     }
+}
+
+/// L2,1 of a face under a plane.
+fn deviation(plane: &Plane, triangle: &Triangle) -> f64 {
+    triangle.area * (plane.normal.into_inner() - triangle.normal).norm_squared()
 }
 
 /// A partition with its proxies.
@@ -129,11 +146,19 @@ pub fn paper(
         let (best, energy) = lloyd(context, &task, state)?;
         return Ok(best.outcome(energy));
     }
-    let short = Options { max_iterations: SETTLING, ..options.clone() };
-    let (settled, mut energy) = lloyd(context, &Task { options: &short, ..task }, state)?;
-    let exchanged = exchange::exchange(context, &task, settled)?;
-    let (best, more) = lloyd(context, &task, exchanged)?;
-    energy.extend(more);
+    let mut energy = Vec::new();
+    let mut rounds = |context: &mut Context, state, most| {
+        let left = options.max_iterations.saturating_sub(energy.len());
+        let options = Options { max_iterations: left.min(most), ..options.clone() };
+        let (best, errors) = lloyd(context, &Task { options: &options, ..task }, state)?;
+        energy.extend(errors);
+        Ok(best)
+    };
+    let mut best = rounds(context, state, SETTLING)?;
+    while let Some(exchanged) = exchange::exchange(context, &task, &best)? {
+        best = rounds(context, exchanged, SETTLING)?;
+    }
+    let best = rounds(context, best, options.max_iterations)?;
     Ok(best.outcome(energy))
 }
 
@@ -146,6 +171,10 @@ pub(crate) fn lloyd(
     let mut energy = vec![state.energy()];
     let (mut best, mut best_round) = (state.clone(), 0);
     let mut seen = HashSet::from([fingerprint(&state.labels)]);
+    let patience = match task.options.seeds {
+        Seeds::Region => PATIENCE,
+        Seeds::Triangle => PATIENCE_OF_TRIANGLES,
+    };
     for round in 0..task.options.max_iterations {
         context.step("segment", round as f64 / task.options.max_iterations as f64)?;
         state = round_of(task, state);
@@ -157,7 +186,7 @@ pub(crate) fn lloyd(
         // A partition that was there before is a fixed point or a cycle: nothing new can come.
         let known = !seen.insert(fingerprint(&state.labels));
         if known
-            || round + 1 - best_round >= PATIENCE
+            || round + 1 - best_round >= patience
             || change <= task.options.convergence * energy[round]
         {
             break;

@@ -4,8 +4,11 @@
 //! are taken about a point near the region; about a distant one, fourth powers would cancel.
 
 use nalgebra::{Matrix3, SMatrix};
+use pulp::{Arch, NullaryFnOnce};
 
 use super::quadrature;
+use crate::math::lanes::{LANES, Lanes};
+use crate::math::triangle::{Triangle, Triangles};
 use crate::math::{Point, Vector};
 
 /// Monomials `xⁱyʲzᵏ` with `i + j + k ≤ 4`.
@@ -89,19 +92,17 @@ impl Moments {
         Self { origin, sums: [0.0; COUNT], oriented, oriented_first }
     }
 
-    /// Adds a triangle with its unit normal and area.
-    pub fn add_triangle(&mut self, corners: [Point; 3], normal: Vector, area: f64) {
-        let corners = corners.map(|corner| Point::from(corner - self.origin));
-        quadrature::each(corners, |weight, point| {
-            let f = basis(point);
-            let weighted = f.map(|value| value * weight * area);
-            for (sum, [a, b]) in self.sums.iter_mut().zip(MONOMIALS.1) {
-                *sum += weighted[a] * f[b];
-            }
-        });
-        let centre = (corners[0].coords + corners[1].coords + corners[2].coords) / 3.0;
-        self.oriented += normal * area;
-        self.oriented_first += centre * normal.transpose() * area;
+    /// Adds triangles.
+    pub fn add(&mut self, triangles: &[Triangle]) {
+        let sums = Arch::new().dispatch(Sums { origin: &self.origin, triangles });
+        for (sum, more) in self.sums.iter_mut().zip(sums) {
+            *sum += more.sum();
+        }
+        for Triangle { corners, normal, area } in triangles {
+            let centre = corners.iter().map(|corner| corner - self.origin).sum::<Vector>() / 3.0;
+            self.oriented += normal * *area;
+            self.oriented_first += centre * normal.transpose() * *area;
+        }
     }
 
     /// The two regions together, about their common centroid.
@@ -197,6 +198,34 @@ impl Moments {
     }
 }
 
+/// `∫ xⁱyʲzᵏ` over triangles, four at a time in the vector instructions of the machine that runs it.
+struct Sums<'a> {
+    origin: &'a Point,
+    triangles: &'a [Triangle],
+}
+
+impl NullaryFnOnce for Sums<'_> {
+    type Output = [Lanes; COUNT];
+
+    #[inline(always)]
+    fn call(self) -> Self::Output {
+        let mut sums = [Lanes::splat(0.0); COUNT];
+        for chunk in self.triangles.chunks(LANES) {
+            let Triangles { corners, areas, .. } = Triangles::new(chunk);
+            quadrature::each_of_packet(corners.map(|c| c.from(self.origin)), |weight, p| {
+                let one = Lanes::splat(1.0);
+                let (x, y, z) = (p.x, p.y, p.z);
+                let f = [one, x, y, z, x * x, x * y, x * z, y * y, y * z, z * z];
+                let weighted = f.map(|value| value * areas * weight);
+                for (sum, [a, b]) in sums.iter_mut().zip(MONOMIALS.1) {
+                    *sum += weighted[a] * f[b];
+                }
+            });
+        }
+        sums
+    }
+}
+
 /// Mean products over a region, in its own coordinates `(x - centre) / extent`.
 pub(super) struct Normalised {
     pub centre: Point,
@@ -216,10 +245,6 @@ const BINOMIAL: [[f64; 5]; 5] = [
     [1.0, 3.0, 3.0, 1.0, 0.0],
     [1.0, 4.0, 6.0, 4.0, 1.0],
 ];
-
-fn basis(p: Point) -> [f64; 10] {
-    [1.0, p.x, p.y, p.z, p.x * p.x, p.x * p.y, p.x * p.z, p.y * p.y, p.y * p.z, p.z * p.z]
-}
 
 fn sum(a: [usize; 3], b: [usize; 3]) -> [usize; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
@@ -258,20 +283,16 @@ mod tests {
     use super::*;
     use crate::context::Context;
 
-    fn triangles(count: usize, offset: f64) -> Vec<([Point; 3], Vector, f64)> {
+    fn triangles(count: usize, offset: f64) -> Vec<Triangle> {
         let mut rng = Context::new(5).rng;
         let mut draw = || Point::from(Vector::from_fn(|_, _| offset + rng.random_range(-1.0..1.0)));
-        let mut triangle = || {
-            let [a, b, c] = [draw(), draw(), draw()];
-            let cross = (b - a).cross(&(c - a));
-            ([a, b, c], cross.normalize(), cross.norm() / 2.0)
-        };
+        let mut triangle = || Triangle::new([draw(), draw(), draw()]);
         (0..count).map(|_| triangle()).collect()
     }
 
-    fn moments(of: &[([Point; 3], Vector, f64)], origin: Point) -> Moments {
+    fn moments(of: &[Triangle], origin: Point) -> Moments {
         let mut moments = Moments::about(origin);
-        of.iter().for_each(|&(corners, normal, area)| moments.add_triangle(corners, normal, area));
+        moments.add(of);
         moments
     }
 
@@ -295,7 +316,7 @@ mod tests {
         let c = SMatrix::<f64, 10, 1>::from_fn(|i, _| ((i * 7 + 3) % 5) as f64 - 1.7);
         let quadric = crate::surface::Quadric { coefficients: c.into() };
         let (mut area, mut value, mut steep, mut along) = (0.0, 0.0, 0.0, 0.0);
-        for &(corners, normal, size) in &all {
+        for &Triangle { corners, normal, area: size } in &all {
             area += size;
             quadrature::each(corners, |weight, point| {
                 let point = Point::from((point - region.centre) / region.extent);

@@ -1,6 +1,7 @@
 //! Integrals over a triangle by a fixed rule.
 
 use crate::math::Point;
+use crate::math::lanes::Packet;
 
 /// Points of the rule.
 pub const POINTS: usize = 6;
@@ -50,6 +51,19 @@ pub fn mean(corners: [Point; 3], mut function: impl FnMut(Point) -> f64) -> f64 
 #[inline]
 pub fn each(corners: [Point; 3], mut visit: impl FnMut(f64, Point)) {
     points(corners).into_iter().zip(WEIGHTS).for_each(|(point, weight)| visit(weight, point));
+}
+
+/// Calls back with the points in four triangles at a time and their weights.
+#[inline(always)]
+pub fn each_of_packet([a, b, c]: [Packet; 3], mut visit: impl FnMut(f64, Packet)) {
+    for (weight, [u, v, w]) in RULE {
+        let point = Packet {
+            x: a.x * u + b.x * v + c.x * w,
+            y: a.y * u + b.y * v + c.y * w,
+            z: a.z * u + b.z * v + c.z * w,
+        };
+        visit(weight, point);
+    }
 }
 
 #[cfg(test)]

@@ -63,6 +63,7 @@ fn fit(region: &Normalised, axes: &[Vector]) -> Option<(Point, f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::triangle::Triangle;
     use crate::surface::Shape;
 
     /// Moments of small triangles on a quarter of a surface about the z axis.
@@ -75,8 +76,7 @@ mod tests {
                     at(f64::from(i + a) / f64::from(n), f64::from(j + b) / f64::from(n))
                 };
                 for corners in [[p(0, 0), p(1, 0), p(1, 1)], [p(0, 0), p(1, 1), p(0, 1)]] {
-                    let cross = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
-                    moments.add_triangle(corners, cross.normalize(), cross.norm() / 2.0);
+                    moments.add(&[Triangle::new(corners)]);
                 }
             }
         }

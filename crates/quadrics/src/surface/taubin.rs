@@ -106,6 +106,7 @@ mod tests {
     use super::*;
     use crate::context::Context;
     use crate::math::Point;
+    use crate::math::triangle::Triangle;
     use crate::surface::{Cone, Cylinder, Shape, Sphere, Surface};
 
     /// Small triangles whose corners lie on a surface; `noise` is their size.
@@ -122,7 +123,7 @@ mod tests {
             };
             let corners = [corner(), corner(), corner()];
             let normal = surface.normal(corners[0]).unwrap().into_inner();
-            moments.add_triangle(corners, normal, 1.0);
+            moments.add(&[Triangle { corners, normal, area: 1.0 }]);
         }
         moments
     }
