@@ -69,16 +69,15 @@ fn size(fine: &Working, faces: usize) -> usize {
 /// The triangles of the sites whose cells meet in a face.
 fn dual(fine: &Working, site: Vec<u32>, positions: Vec<Point>) -> Coarse {
     // Cells that meet twice would make the same triangle twice.
-    let mut triangles: Vec<([u32; 3], u32)> = Vec::new();
-    for (face, corners) in fine.mesh.faces.iter().enumerate() {
+    let triangle = |(face, corners): (usize, &[u32; 3])| {
         let [a, b, c] = corners.map(|v| site[v as usize]);
-        if a != b && b != c && c != a {
-            let least = a.min(b).min(c);
-            let first = [[a, b, c], [b, c, a], [c, a, b]].into_iter().find(|t| t[0] == least);
-            triangles.extend(first.map(|triangle| (triangle, face as u32)));
-        }
-    }
-    triangles.sort_unstable();
+        let least = a.min(b).min(c);
+        let first = [[a, b, c], [b, c, a], [c, a, b]].into_iter().find(|t| t[0] == least)?;
+        (a != b && b != c && c != a).then_some((first, face as u32))
+    };
+    let faces = fine.mesh.faces.par_iter().enumerate();
+    let mut triangles: Vec<([u32; 3], u32)> = faces.filter_map(triangle).collect();
+    triangles.par_sort_unstable();
     triangles.dedup_by_key(|(triangle, _)| *triangle);
     let (faces, origin) = triangles.into_iter().unzip();
     Coarse { mesh: Mesh { positions, faces }, site, origin }

@@ -6,19 +6,20 @@
 //! SIGGRAPH 1997), and errs by no more than the mean elsewhere.
 
 use nalgebra::Matrix3;
+use rayon::prelude::*;
 
 use super::coarsen::Coarse;
 use super::nearest::nearest;
 use crate::math::{Point, Vector};
 use crate::mesh::Working;
-use crate::partition::UNLABELLED;
+use crate::partition::{Regions, UNLABELLED};
 
 /// Weight of the mean of a cell against its planes, per vertex: what filtered normals that err by 0.2
 /// radians say along the surface is less, what a crease of 30 degrees says is more.
 const MEAN: f64 = 0.05;
 
 /// What the vertices of a cell say of its site.
-#[derive(Clone, Default)]
+#[derive(Default)]
 struct Cell {
     /// Sum of `n nᵀ` over their planes.
     matrix: Matrix3<f64>,
@@ -34,25 +35,25 @@ pub fn place(fine: &Working, coarse: &Coarse, normals: &[Vector]) -> Vec<Point> 
     let nearest = nearest(fine.len(), &coarse.origin, |face, visit| {
         fine.adjacency.across(face as usize).for_each(|other| visit(other as u32));
     });
-    let mut cells = vec![Cell::default(); coarse.mesh.positions.len()];
-    for (vertex, (position, &site)) in fine.mesh.positions.iter().zip(&coarse.site).enumerate() {
-        let cell = &mut cells[site as usize];
-        let around = fine.adjacency.around(vertex as u32);
-        let beside = around.iter().map(|&face| nearest[face as usize]);
-        for face in beside.filter(|&face| face != UNLABELLED) {
-            let normal = normals[face as usize];
-            let weighted = normal / around.len() as f64;
-            cell.matrix += weighted * normal.transpose();
-            cell.through += weighted * normal.dot(&position.coords);
+    let vertices = Regions::new(&coarse.site);
+    let site = |(site, &now): (usize, &Point)| {
+        let mut cell = Cell::default();
+        for &vertex in vertices.faces(site) {
+            let position = fine.mesh.positions[vertex as usize];
+            let around = fine.adjacency.around(vertex);
+            let beside = around.iter().map(|&face| nearest[face as usize]);
+            for face in beside.filter(|&face| face != UNLABELLED) {
+                let normal = normals[face as usize];
+                let weighted = normal / around.len() as f64;
+                cell.matrix += weighted * normal.transpose();
+                cell.through += weighted * normal.dot(&position.coords);
+            }
+            cell.sum += position.coords;
+            cell.count += 1.0;
         }
-        cell.sum += position.coords;
-        cell.count += 1.0;
-    }
-    cells
-        .iter()
-        .zip(&coarse.mesh.positions)
-        .map(|(cell, &now)| cell.site().unwrap_or(now))
-        .collect()
+        cell.site().unwrap_or(now)
+    };
+    coarse.mesh.positions.par_iter().enumerate().map(site).collect()
 }
 
 impl Cell {
