@@ -36,6 +36,9 @@ const PATIENCE_OF_TRIANGLES: usize = 10;
 /// Rounds before regions are exchanged, and between exchanges: errors of the start are gone by then.
 const SETTLING: usize = 3;
 
+/// Share of the error that exchanges and the rounds after them must save for more of them to follow.
+const WORTH_IT: f64 = 0.01;
+
 /// What the loop ends with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
@@ -151,14 +154,21 @@ pub fn paper(
         let left = options.max_iterations.saturating_sub(energy.len());
         let options = Options { max_iterations: left.min(most), ..options.clone() };
         let (best, errors) = lloyd(context, &Task { options: &options, ..task }, state)?;
+        let falls = errors.last() == Some(&best.energy());
         energy.extend(errors);
-        Ok(best)
+        Ok((best, falls))
     };
-    let mut best = rounds(context, state, SETTLING)?;
+    let (mut best, mut falls) = rounds(context, state, SETTLING)?;
     while let Some(exchanged) = exchange::exchange(context, &task, &best)? {
-        best = rounds(context, exchanged, SETTLING)?;
+        let before = best.energy();
+        (best, falls) = rounds(context, exchanged, SETTLING)?;
+        if best.energy() > (1.0 - WORTH_IT) * before {
+            break;
+        }
     }
-    let best = rounds(context, best, options.max_iterations)?;
+    if falls {
+        (best, _) = rounds(context, best, options.max_iterations)?;
+    }
     Ok(best.outcome(energy))
 }
 
