@@ -156,6 +156,20 @@ mod tests {
     }
 
     #[test]
+    fn the_order_of_the_faces_in_the_file_does_not_matter() {
+        let mesh = scaled(can(10));
+        let turned = Mesh { faces: mesh.faces.iter().rev().copied().collect(), ..mesh.clone() };
+        let options = Options { regions: Some(5), ..Options::default() };
+        let of = |mesh| paper(&mut Context::new(3), mesh, &options, None).unwrap();
+        let (one, other) = (of(&mesh), of(&turned));
+        let mut pairs: Vec<_> = one.labels.iter().zip(other.labels.iter().rev()).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        // The same regions, which may bear other numbers.
+        assert_eq!((pairs.len(), one.energy), (5, other.energy));
+    }
+
+    #[test]
     fn the_same_seed_gives_the_same_result_with_any_number_of_threads() {
         let mesh = scaled(can(10));
         let options = Options { regions: Some(5), ..Options::default() };

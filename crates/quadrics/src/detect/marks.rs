@@ -21,15 +21,15 @@ impl Marks {
         self.search += 1;
     }
 
-    /// Whether this search sees a face for the first time.
+    /// Comes to a face; whether this search had not been there.
     #[inline]
-    pub fn is_new_face(&mut self, face: u32) -> bool {
+    pub fn visit_face(&mut self, face: u32) -> bool {
         std::mem::replace(&mut self.faces[face as usize], self.search) != self.search
     }
 
-    /// Whether this search sees a vertex for the first time.
+    /// Comes to a vertex; whether this search had not been there.
     #[inline]
-    pub fn is_new_vertex(&mut self, vertex: u32) -> bool {
+    pub fn visit_vertex(&mut self, vertex: u32) -> bool {
         std::mem::replace(&mut self.vertices[vertex as usize], self.search) != self.search
     }
 }

@@ -37,11 +37,11 @@ pub fn neighbourhood(
     let size = NEIGHBOURHOODS[rng.random_range(0..NEIGHBOURHOODS.len())];
     let mut found = vec![start];
     marks.begin();
-    marks.is_new_face(start);
+    marks.visit_face(start);
     let mut next = 0;
     while next < found.len() && found.len() < size {
         for other in working.adjacency.across(found[next] as usize) {
-            if labels[other] == UNLABELLED && marks.is_new_face(other as u32) {
+            if labels[other] == UNLABELLED && marks.visit_face(other as u32) {
                 found.push(other as u32);
             }
         }

@@ -133,18 +133,18 @@ fn grow(
         return found;
     }
     marks.begin();
-    marks.is_new_face(start);
+    marks.visit_face(start);
     found.score = weigh(start as usize);
     found.faces.push(start);
     let mut next = 0;
     while next < found.faces.len() {
         for corner in working.mesh.faces[found.faces[next] as usize] {
             // All faces of a vertex are looked at from the first of them.
-            if !marks.is_new_vertex(corner) {
+            if !marks.visit_vertex(corner) {
                 continue;
             }
             for &face in working.adjacency.around(corner) {
-                if labels[face as usize] != UNLABELLED || !marks.is_new_face(face) {
+                if labels[face as usize] != UNLABELLED || !marks.visit_face(face) {
                     continue;
                 }
                 let weight = weigh(face as usize);

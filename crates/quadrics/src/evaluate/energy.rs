@@ -1,5 +1,7 @@
 //! The total error of a segmentation whoever made it (paper, eq. 1 to 3).
 
+use rayon::prelude::*;
+
 use crate::error::Result;
 use crate::math::triangle::Triangle;
 use crate::mesh::Mesh;
@@ -32,7 +34,8 @@ pub fn energy(
 ) -> Result<Energy> {
     let into = to_unit_cube(mesh)?;
     let corners = |face: usize| mesh.corners(face).map(|corner| into * corner);
-    let all: Vec<Triangle> = (0..mesh.faces.len()).map(|f| Triangle::new(corners(f))).collect();
+    let faces = (0..mesh.faces.len()).into_par_iter();
+    let all: Vec<Triangle> = faces.map(|face| Triangle::new(corners(face))).collect();
     let area = |faces: &[Triangle]| faces.iter().map(|face| face.area).sum::<f64>();
     let (mut total, mut covered) = (0.0, 0.0);
     for (faces, surface) in Regions::new(labels).iter().zip(surfaces) {

@@ -10,7 +10,7 @@ use super::{Point, Vector};
 pub struct Triangle {
     /// Its corners.
     pub corners: [Point; 3],
-    /// Its unit normal; none without area.
+    /// Its unit normal; zero without area.
     pub normal: Vector,
     /// Its area.
     pub area: f64,

@@ -7,7 +7,7 @@
 
 use super::fit::Fitted;
 use super::insert::split;
-use super::merge::Unions;
+use super::merge::{Couple, Unions};
 use super::{State, Task};
 use crate::context::Context;
 use crate::error::Result;
@@ -47,9 +47,11 @@ fn once(
 ) -> Result<Option<(State, Unions)>> {
     let count = state.regions.len();
     // A split saves no more than the region's error, and the merge that pays for it costs that much.
+    let costs = unions.costs();
     let is_worth_it = |&region: &usize| {
         let Fitted { faces, error, .. } = &state.regions[region];
-        faces.len() > 1 && unions.cheapest(region).is_none_or(|cost| *error > cost)
+        let apart = |(_, (a, b)): &&(f64, Couple)| [*a, *b].iter().all(|&r| r as usize != region);
+        faces.len() > 1 && costs.iter().find(apart).is_none_or(|(cost, _)| error > cost)
     };
     let mut worst: Vec<usize> = (0..count).filter(is_worth_it).collect();
     worst.sort_by(|&i, &j| state.regions[j].mean_error().total_cmp(&state.regions[i].mean_error()));

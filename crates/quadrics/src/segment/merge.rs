@@ -15,7 +15,7 @@ use crate::math::triangle::Triangle;
 const SAMPLE: usize = 50;
 
 /// Two adjacent regions, the lesser first.
-type Couple = (u32, u32);
+pub type Couple = (u32, u32);
 
 /// What a merge would do.
 #[derive(Clone)]
@@ -57,11 +57,11 @@ impl Unions {
         Self(unions(task, regions, &couples(task, labels, 0..labels.len())))
     }
 
-    /// The least increase of the error by a merge of two others than `region`.
-    pub fn cheapest(&self, region: usize) -> Option<f64> {
-        let apart = |&(a, b): &Couple| a as usize != region && b as usize != region;
-        let others = self.0.iter().filter(|(couple, _)| apart(couple));
-        others.map(|(_, union)| union.order.1).min_by(f64::total_cmp)
+    /// By how much every merge would raise the error, the least first.
+    pub fn costs(&self) -> Vec<(f64, Couple)> {
+        let mut costs: Vec<_> = self.0.iter().map(|(&couple, u)| (u.order.1, couple)).collect();
+        costs.sort_by(|one, other| one.0.total_cmp(&other.0));
+        costs
     }
 
     /// Forgets those of one region, which has been split, and looks at those of its two parts.

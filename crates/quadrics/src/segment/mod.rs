@@ -35,7 +35,6 @@ const PATIENCE: usize = 4;
 const PATIENCE_OF_TRIANGLES: usize = 10;
 /// Rounds before regions are exchanged, and between exchanges: errors of the start are gone by then.
 const SETTLING: usize = 3;
-
 /// Share of the error that exchanges and the rounds after them must save for more of them to follow.
 const WORTH_IT: f64 = 0.01;
 
@@ -46,8 +45,8 @@ pub struct Outcome {
     pub labels: Labels,
     /// The surface of every region, its gradient on the side of the region's normals.
     pub proxies: Vec<Proxy>,
-    /// Total error (eq. 1) of the adjusted start, then after every round. The labels are those of
-    /// the least of them.
+    /// Total error (eq. 1) of the adjusted start, then after every round and every series of
+    /// exchanges. The labels are those of the least of them.
     pub energy: Vec<f64>,
 }
 
@@ -150,26 +149,35 @@ pub fn paper(
         return Ok(best.outcome(energy));
     }
     let mut energy = Vec::new();
-    let mut rounds = |context: &mut Context, state, most| {
-        let left = options.max_iterations.saturating_sub(energy.len());
-        let options = Options { max_iterations: left.min(most), ..options.clone() };
-        let (best, errors) = lloyd(context, &Task { options: &options, ..task }, state)?;
-        let falls = errors.last() == Some(&best.energy());
-        energy.extend(errors);
-        Ok((best, falls))
-    };
-    let (mut best, mut falls) = rounds(context, state, SETTLING)?;
-    while let Some(exchanged) = exchange::exchange(context, &task, &best)? {
+    let (mut best, mut falls) = settle(context, &task, state, SETTLING, &mut energy)?;
+    while energy.len() <= options.max_iterations {
+        let Some(exchanged) = exchange::exchange(context, &task, &best)? else { break };
         let before = best.energy();
-        (best, falls) = rounds(context, exchanged, SETTLING)?;
+        (best, falls) = settle(context, &task, exchanged, SETTLING, &mut energy)?;
         if best.energy() > (1.0 - WORTH_IT) * before {
             break;
         }
     }
     if falls {
-        (best, _) = rounds(context, best, options.max_iterations)?;
+        (best, _) = settle(context, &task, best, options.max_iterations, &mut energy)?;
     }
     Ok(best.outcome(energy))
+}
+
+/// At most so many rounds, of those that are left; whether the last one was the best.
+fn settle(
+    context: &mut Context,
+    task: &Task,
+    state: State,
+    most: usize,
+    energy: &mut Vec<f64>,
+) -> Result<(State, bool)> {
+    let left = task.options.max_iterations.saturating_sub(energy.len());
+    let options = Options { max_iterations: left.min(most), ..task.options.clone() };
+    let (best, errors) = lloyd(context, &Task { options: &options, ..*task }, state)?;
+    let falls = errors.last() == Some(&best.energy());
+    energy.extend(errors);
+    Ok((best, falls))
 }
 
 /// Lloyd's iteration: the best partition seen, and the energy of the start and after every round.
