@@ -1,6 +1,10 @@
 //! Which faces share an edge, and which share a vertex. By sorting, not by hashing.
 
-use super::edges::for_each_edge;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use rayon::prelude::*;
+
+use super::edges::fold_edges;
 
 /// Marks an edge without a neighbour: a border, or an edge that is not manifold.
 pub const NONE: u32 = u32::MAX;
@@ -38,14 +42,32 @@ impl Adjacency {
 }
 
 fn face_neighbours(faces: &[[u32; 3]], vertices: usize) -> Vec<[u32; 3]> {
-    let mut neighbours = vec![[NONE; 3]; faces.len()];
-    for_each_edge(faces, vertices, |edge| {
+    let (twins, _) = twins(faces, vertices, |(), _| ());
+    let face_of = |half_edge: u32| if half_edge == NONE { NONE } else { half_edge / 3 };
+    twins.into_par_iter().map(|twins| twins.map(face_of)).collect()
+}
+
+/// The half-edge on the other side of every half-edge, [`NONE`] at borders and non-manifold edges; and
+/// what `count` gathers from the edges.
+pub(super) fn twins<T: Default + Send>(
+    faces: &[[u32; 3]],
+    vertices: usize,
+    count: impl Fn(&mut T, &[u32]) + Sync,
+) -> (Vec<[u32; 3]>, Vec<T>) {
+    // Each is written once at most, by whichever thread has its edge.
+    let none = |_: &[u32; 3]| [0; 3].map(|_| AtomicU32::new(NONE));
+    let twins: Vec<[AtomicU32; 3]> = faces.par_iter().map(none).collect();
+    let put = |half_edge: u32, twin: u32| {
+        twins[half_edge as usize / 3][half_edge as usize % 3].store(twin, Relaxed);
+    };
+    let counts = fold_edges(faces, vertices, |counts, edge| {
+        count(counts, edge);
         if let &[one, other] = edge {
-            neighbours[one as usize / 3][one as usize % 3] = other / 3;
-            neighbours[other as usize / 3][other as usize % 3] = one / 3;
+            put(one, other);
+            put(other, one);
         }
     });
-    neighbours
+    (twins.into_par_iter().map(|twins| twins.map(AtomicU32::into_inner)).collect(), counts)
 }
 
 fn faces_around_vertices(faces: &[[u32; 3]], vertices: usize) -> (Vec<u32>, Vec<u32>) {

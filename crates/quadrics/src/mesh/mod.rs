@@ -12,6 +12,7 @@ pub(crate) mod samples;
 mod substitute;
 mod validate;
 pub(crate) mod weld;
+mod windings;
 mod working;
 
 pub use adjacency::{Adjacency, NONE};
@@ -20,6 +21,8 @@ pub use inspect::{Inspection, inspect};
 pub use repair::{Repaired, repair};
 pub use validate::{LARGEST_COORDINATE, check_indices, validate};
 pub use working::Working;
+
+use rayon::prelude::*;
 
 use crate::math::Point;
 
@@ -42,9 +45,12 @@ impl Mesh {
 
     /// Least and greatest coordinates of the vertices that faces use; `None` without faces.
     pub fn bounds(&self) -> Option<(Point, Point)> {
-        let mut used = self.faces.iter().flatten().map(|&v| self.positions[v as usize]);
-        let first = used.next()?;
-        Some(used.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p))))
+        let of_face = |face| {
+            let [a, b, c] = self.corners(face);
+            (a.inf(&b).inf(&c), a.sup(&b).sup(&c))
+        };
+        let faces = (0..self.faces.len()).into_par_iter().with_min_len(4096);
+        faces.map(of_face).reduce_with(|one, other| (one.0.inf(&other.0), one.1.sup(&other.1)))
     }
 
     /// The longest side of the bounding box: the *size* that relative lengths refer to.

@@ -7,14 +7,19 @@
 //!   void, whose normals rightly point inward;
 //! * as most of its faces were, if it is open.
 
+use rayon::prelude::*;
+
 use super::Mesh;
-use super::adjacency::NONE;
-use super::edges::{ends, for_each_edge};
+use super::adjacency::{NONE, twins};
+use super::windings::Windings;
 use crate::math::Point;
 
 /// How many of the largest closed components are asked whether they enclose another: all pairs would
 /// be quadratic, and a void lies in something large.
 const ENCLOSERS: usize = 64;
+
+/// Faces whose volumes one thread adds up.
+const CHUNK: usize = 1 << 14;
 
 /// What the edges say, counted while the faces were turned.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -33,60 +38,106 @@ pub(crate) struct Census {
 
 /// Turns the faces of `mesh` so that they agree.
 pub(crate) fn orient(mesh: &mut Mesh) -> Census {
-    let mut census = Census::default();
-    let twins = twins(mesh, &mut census);
-    let (mut components, mut flip) = spread(mesh, &twins, &mut census);
-    // From the largest: what lies in another is settled after it.
-    components.sort_by(|one, other| other.extent().total_cmp(&one.extent()));
-    let mut enclosers: Vec<(usize, bool)> = Vec::new();
-    for (i, component) in components.iter().enumerate() {
-        let around =
-            enclosers.iter().find(|(j, _)| component.closed && components[*j].holds(component));
-        let against_majority = match around {
-            Some(&(_, turned)) => turned,
-            None => component.closed && component.volume_of_majority(mesh, &flip) < 0.0,
-        };
-        if component.closed && enclosers.len() < ENCLOSERS {
-            enclosers.push((i, against_majority));
-        }
-        if component.mostly_flipped(&flip) != against_majority {
-            component.faces.iter().for_each(|&face| flip[face as usize] ^= true);
-        }
-    }
-    census.components = components.len();
+    let (mut census, windings, open) = walk(mesh);
+    let (component, mut flip, count) = windings.components();
+    let mut components = components(mesh, &component, &flip, count);
+    open.into_iter().for_each(|face| components[component[face as usize] as usize].closed = false);
+    let turned = turned(&components);
+    census.components = count;
     census.closed_components = components.iter().filter(|component| component.closed).count();
-    for (corners, _) in mesh.faces.iter_mut().zip(&flip).filter(|(_, flip)| **flip) {
-        corners.swap(1, 2);
-        census.flipped += 1;
+    for ((corners, flip), component) in mesh.faces.iter_mut().zip(&mut flip).zip(component) {
+        *flip ^= turned[component as usize];
+        if *flip {
+            corners.swap(1, 2);
+            census.flipped += 1;
+        }
     }
     census
 }
 
-/// The half-edge on the other side of every half-edge; [`NONE`] at borders and non-manifold edges.
-fn twins(mesh: &Mesh, census: &mut Census) -> Vec<u32> {
-    let mut twins = vec![NONE; 3 * mesh.faces.len()];
-    for_each_edge(&mesh.faces, mesh.positions.len(), |edge| {
+/// Counts the edges, joins the faces across them, and names faces beside which no other can agree.
+fn walk(mesh: &Mesh) -> (Census, Windings, Vec<u32>) {
+    let count = |census: &mut Census, edge: &[u32]| {
         census.edges += 1;
-        match *edge {
-            [_] => census.border += 1,
-            [one, other] => {
-                twins[one as usize] = other;
-                twins[other as usize] = one;
+        census.border += usize::from(edge.len() == 1);
+        census.non_manifold += usize::from(edge.len() > 2);
+    };
+    let (twins, counts) = twins(&mesh.faces, mesh.positions.len(), count);
+    let sum = |of: fn(&Census) -> usize| counts.iter().map(of).sum();
+    let mut census = Census {
+        edges: sum(|census| census.edges),
+        border: sum(|census| census.border),
+        non_manifold: sum(|census| census.non_manifold),
+        ..Census::default()
+    };
+    let mut windings = Windings::new(mesh.faces.len());
+    let mut open = Vec::new();
+    for (face, (corners, twins)) in (0..).zip(mesh.faces.iter().zip(&twins)) {
+        for (start, &twin) in corners.iter().zip(twins) {
+            let other = twin / 3;
+            if twin == NONE {
+                open.push(face);
+            } else if other > face {
+                // Neighbours agree when they run along their edge in opposite directions.
+                let agree = *start != mesh.faces[other as usize][twin as usize % 3];
+                if !windings.join(face, other, agree) {
+                    census.unorientable += 1;
+                    open.push(face);
+                }
             }
-            _ => census.non_manifold += 1,
         }
-    });
-    twins
+    }
+    (census, windings, open)
 }
 
 struct Component {
-    faces: Vec<u32>,
-    closed: bool,
     low: Point,
     high: Point,
+    faces: usize,
+    /// Faces that are wound against the first.
+    flipped: usize,
+    /// Six times the volume, were all faces wound as the first.
+    volume: f64,
+    closed: bool,
 }
 
 impl Component {
+    /// Some faces of one component, where `origin` is near.
+    fn of(mesh: &Mesh, faces: &[u32], flip: &[bool], origin: Point) -> Self {
+        let mut own = Self {
+            low: origin,
+            high: origin,
+            faces: faces.len(),
+            flipped: 0,
+            volume: 0.0,
+            closed: true,
+        };
+        for &face in faces {
+            let flip = flip[face as usize];
+            let corners = mesh.corners(face as usize);
+            for p in corners {
+                (own.low, own.high) = (own.low.inf(&p), own.high.sup(&p));
+            }
+            // Far from the component the terms would cancel.
+            let [a, b, c] = corners.map(|p| p - origin);
+            let volume = a.dot(&b.cross(&c));
+            own.volume += if flip { -volume } else { volume };
+            own.flipped += usize::from(flip);
+        }
+        own
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+            faces: self.faces + other.faces,
+            flipped: self.flipped + other.flipped,
+            volume: self.volume + other.volume,
+            closed: self.closed && other.closed,
+        }
+    }
+
     fn extent(&self) -> f64 {
         (self.high - self.low).max()
     }
@@ -95,93 +146,50 @@ impl Component {
         (0..3).all(|i| self.low[i] < other.low[i] && other.high[i] < self.high[i])
     }
 
-    fn mostly_flipped(&self, flip: &[bool]) -> bool {
-        2 * self.faces.iter().filter(|&&face| flip[face as usize]).count() > self.faces.len()
-    }
-
-    /// Six times the volume, were all faces wound as most of them are.
-    fn volume_of_majority(&self, mesh: &Mesh, flip: &[bool]) -> f64 {
-        // From a point of the component: far from the origin the terms would cancel.
-        let origin = self.low;
-        let term = |&face: &u32| {
-            let [a, b, c] = mesh.corners(face as usize).map(|p| p - origin);
-            let volume = a.dot(&b.cross(&c));
-            if flip[face as usize] { -volume } else { volume }
-        };
-        let volume: f64 = self.faces.iter().map(term).sum();
-        if self.mostly_flipped(flip) { -volume } else { volume }
+    fn mostly_flipped(&self) -> bool {
+        2 * self.flipped > self.faces
     }
 }
 
-/// The components, and for every face whether it must be turned to agree with the first of its own.
-fn spread(mesh: &Mesh, twins: &[u32], census: &mut Census) -> (Vec<Component>, Vec<bool>) {
-    let mut walk = Walk {
-        mesh,
-        twins,
-        seen: vec![false; mesh.faces.len()],
-        flip: vec![false; mesh.faces.len()],
-        clashes: 0,
+/// All components, as if closed.
+fn components(mesh: &Mesh, component: &[u32], flip: &[bool], count: usize) -> Vec<Component> {
+    let mut faces: Vec<u32> = (0..component.len() as u32).collect();
+    if count > 1 {
+        faces.par_sort_unstable_by_key(|&face| (component[face as usize], face));
+    }
+    let all: Vec<&[u32]> =
+        faces.chunk_by(|&f, &g| component[f as usize] == component[g as usize]).collect();
+    let whole = |faces: &[u32]| {
+        let origin = mesh.corners(faces[0] as usize)[0];
+        let part = |faces| Component::of(mesh, faces, flip, origin);
+        // Parts do not depend on threads, and so neither does the sum.
+        let parts: Vec<Component> = faces.par_chunks(CHUNK).map(part).collect();
+        parts.into_iter().reduce(Component::with)
     };
-    let mut components = Vec::new();
-    for first in 0..mesh.faces.len() {
-        if !walk.seen[first] {
-            components.push(walk.component(first as u32));
-        }
-    }
-    // Each was met from both of its sides.
-    census.unorientable = walk.clashes / 2;
-    (components, walk.flip)
+    all.into_par_iter().filter_map(whole).collect()
 }
 
-struct Walk<'a> {
-    mesh: &'a Mesh,
-    twins: &'a [u32],
-    seen: Vec<bool>,
-    flip: Vec<bool>,
-    clashes: usize,
-}
-
-impl Walk<'_> {
-    /// All that can be reached from `first`, breadth first.
-    fn component(&mut self, first: u32) -> Component {
-        self.seen[first as usize] = true;
-        let mut faces = vec![first];
-        let mut next = 0;
-        let mut closed = true;
-        while let Some(&face) = faces.get(next) {
-            next += 1;
-            for half_edge in 3 * face..3 * face + 3 {
-                closed &= self.cross(half_edge, &mut faces);
-            }
+/// Which components must be turned against their first face.
+fn turned(components: &[Component]) -> Vec<bool> {
+    // From the largest: what lies in another is settled after it.
+    let mut order: Vec<usize> = (0..components.len()).collect();
+    order.sort_by(|&i, &j| components[j].extent().total_cmp(&components[i].extent()));
+    let mut turned = vec![false; components.len()];
+    // The largest closed ones, and whether the majority of their faces was turned.
+    let mut enclosers: Vec<(usize, bool)> = Vec::new();
+    for i in order {
+        let component = &components[i];
+        let mostly_flipped = component.mostly_flipped();
+        let around =
+            enclosers.iter().find(|(j, _)| component.closed && components[*j].holds(component));
+        let against_majority = match around {
+            Some(&(_, turned)) => turned,
+            None => component.closed && (component.volume < 0.0) != mostly_flipped,
+        };
+        if component.closed && enclosers.len() < ENCLOSERS {
+            enclosers.push((i, against_majority));
         }
-        let (low, high) = bounds(self.mesh, &faces);
-        Component { faces, closed, low, high }
+        turned[i] = mostly_flipped != against_majority;
     }
-
-    /// Steps over an edge; whether there is a face that can agree with this one.
-    fn cross(&mut self, half_edge: u32, faces: &mut Vec<u32>) -> bool {
-        let twin = self.twins[half_edge as usize];
-        if twin == NONE {
-            return false;
-        }
-        // Neighbours agree when they run along their edge in opposite directions.
-        let start = |half_edge| ends(&self.mesh.faces, half_edge).0;
-        let agree = start(half_edge) != start(twin);
-        let wanted = self.flip[half_edge as usize / 3] == agree;
-        let neighbour = twin as usize / 3;
-        if self.seen[neighbour] {
-            self.clashes += usize::from(self.flip[neighbour] != wanted);
-            return self.flip[neighbour] == wanted;
-        }
-        self.seen[neighbour] = true;
-        self.flip[neighbour] = wanted;
-        faces.push(neighbour as u32);
-        true
-    }
-}
-
-fn bounds(mesh: &Mesh, faces: &[u32]) -> (Point, Point) {
-    let first = mesh.corners(faces[0] as usize)[0];
-    let corners = faces.iter().flat_map(|&face| mesh.corners(face as usize));
-    corners.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)))
+    turned
 }

@@ -1,5 +1,7 @@
 //! Is a mesh usable? The first reason why not.
 
+use rayon::prelude::*;
+
 use super::Mesh;
 use super::repair::is_flat;
 use crate::error::{Error, Result};
@@ -22,8 +24,9 @@ pub fn validate(mesh: &Mesh) -> Result<()> {
         (true, vertices) => return Err(Error::PointsOnly { vertices }),
         _ => check_indices(&mesh.faces, vertices)?,
     }
-    let mut used = mesh.faces.iter().flatten();
-    if used.any(|&v| !is_usable(&mesh.positions[v as usize])) {
+    let usable =
+        |corners: &[u32; 3]| corners.iter().all(|&v| is_usable(&mesh.positions[v as usize]));
+    if !mesh.faces.par_iter().all(usable) {
         return Err(Error::NotFinite { vertex: first_unusable(mesh) });
     }
     if (0..mesh.faces.len()).all(|face| is_flat(mesh.corners(face))) {
