@@ -12,7 +12,7 @@ use crate::prepare::{Coarse, coarsen, is_faceted, labels_back, noise, subdivide}
 use crate::recognise::assign::{self, Model, models};
 use crate::recognise::means::{Cells, gathered};
 use crate::recognise::{
-    self, Outcome, bands, carry, evidence, expand, moves, patch, scene::Scene, unshown,
+    self, Outcome, bands, carry, evidence, expand, moves, patch, scene::Scene, shreds, unshown,
 };
 use crate::retype::retype;
 use crate::surface::Surface;
@@ -41,6 +41,12 @@ pub fn default(context: &mut Context, scene: &mut Scene, task: Task) -> Result<O
     let Task { cube, options, start } = task;
     if cube.len() < FEW_FACES && !scene.tessellated {
         return subdivided(context, scene, task);
+    }
+    if start.is_none() && options.regions.is_none() {
+        let sheets = context.timed("sheets", |context| shreds::recognise(context, scene))?;
+        if let Some(sheets) = sheets {
+            return Ok(sheets);
+        }
     }
     if let Some(stand) = stand_ins(context, scene, task)? {
         return coarsened(context, scene, task, stand);
