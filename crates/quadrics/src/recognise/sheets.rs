@@ -4,6 +4,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 
 use super::cells::Cells;
+use super::levels::{Levels, levels};
 use crate::context::Context;
 use crate::error::Result;
 use crate::math::Point;
@@ -17,25 +18,33 @@ pub struct Sheet {
     pub points: Vec<u32>,
 }
 
-/// Neighbourhoods that are tried for one sheet; the one that grows largest is kept.
+impl Sheet {
+    /// The levels that its points lie at.
+    pub fn levels(&self, points: &[Point]) -> Levels {
+        levels(self.points.iter().map(|&p| self.plane.distance(points[p as usize])).collect())
+    }
+}
+
+/// Neighbourhoods that are tried for one sheet; what saves most is kept: of the largest many are bent.
 const TRIES: usize = 40;
 /// Points that a neighbourhood must have.
 const FEWEST_AROUND: usize = 20;
 /// Points of a sheet.
 const FEWEST: usize = 60;
-/// A neighbourhood reaches so many edges around its point, and lies in a plane where its points are
-/// within a sixth of that, root mean square.
+/// A neighbourhood reaches so many edges around its point.
 const AROUND: f64 = 13.0;
-const FLAT: f64 = 1.0 / 6.0;
-/// Points within so many root mean squares are of the sheet. Those of two sides are one of them away,
-/// and three quarters of what the sides err by remain.
-const WITHIN: f64 = 2.0;
+/// Edges that half of a sheet's points keep within of its plane: only walls thinner than an edge come out
+/// in shreds.
+const THIN: f64 = 0.5;
+/// What no sheet explains may lie so many edges off it.
+const STRAY: f64 = 2.0;
+/// Points within so many medians of the distances are of the sheet: those of two sides are one of them
+/// away, and what three standard deviations of a sixth of an edge leave.
+const WITHIN: f64 = 2.2;
 /// Rounds of growing and fitting.
 const ROUNDS: usize = 6;
-/// Two sheets are one where together they lie no further from their plane than either from its own, and
-/// each lies on it.
-const AS_FLAT: f64 = 1.15;
-const BESIDE: f64 = 0.5;
+/// Two sheets are one where either lies so flat on the plane of both, as the less flat one on its own.
+const AS_FLAT: f64 = 1.3;
 /// They may be so many times further apart than the shreds of one.
 const GAP: f64 = 3.0;
 
@@ -61,10 +70,12 @@ pub fn find(
         let seeds: Vec<u32> =
             (0..TRIES).map(|_| open[context.rng.random_range(0..open.len())]).collect();
         let grown = seeds.par_iter().filter_map(|&seed| grow(points, cells, &free, seed, edge));
-        let size = |sheet: &Sheet| (sheet.points.len(), std::cmp::Reverse(sheet.points[0]));
-        let Some(best) = grown.max_by_key(size).filter(|best| best.points.len() >= FEWEST) else {
-            break;
-        };
+        // What a description of the points by their sheet saves, in nats.
+        let saved =
+            |grown: &Grown| grown.sheet.points.len() as f64 * (STRAY * edge / grown.thickness).ln();
+        let better = |one: &Grown, other: &Grown| saved(one).total_cmp(&saved(other));
+        let large = grown.filter(|grown| grown.sheet.points.len() >= FEWEST);
+        let Some(Grown { sheet: best, .. }) = large.max_by(better) else { break };
         best.points.iter().for_each(|&p| free[p as usize] = false);
         left -= best.points.len();
         sheets.push(best);
@@ -73,8 +84,13 @@ pub fn find(
     Ok(sheets)
 }
 
+struct Grown {
+    sheet: Sheet,
+    thickness: f64,
+}
+
 /// What grows from the neighbourhood of a point.
-fn grow(points: &[Point], cells: &Cells, free: &[bool], seed: u32, edge: f64) -> Option<Sheet> {
+fn grow(points: &[Point], cells: &Cells, free: &[bool], seed: u32, edge: f64) -> Option<Grown> {
     let center = points[seed as usize];
     let radius = AROUND * edge;
     let near = |p: u32| free[p as usize] && (points[p as usize] - center).norm() < radius;
@@ -82,12 +98,11 @@ fn grow(points: &[Point], cells: &Cells, free: &[bool], seed: u32, edge: f64) ->
     if own.len() < FEWEST_AROUND {
         return None;
     }
-    let (mut plane, mut rms) = fit(points, &own)?;
-    if rms > FLAT * radius {
-        return None;
-    }
+    let (mut plane, mut thickness) = fit(points, &own)?;
+    // A wall is as thick everywhere: what grows thicker bends.
+    let thickest = thickness;
     for _ in 0..ROUNDS {
-        let within = WITHIN * rms;
+        let within = WITHIN * thickness.min(thickest);
         let belongs =
             |p: u32| free[p as usize] && plane.distance(points[p as usize]).abs() < within;
         let from = own.iter().copied().find(|&p| belongs(p))?;
@@ -95,24 +110,22 @@ fn grow(points: &[Point], cells: &Cells, free: &[bool], seed: u32, edge: f64) ->
         if own.len() < FEWEST_AROUND {
             return None;
         }
-        (plane, rms) = fit(points, &own)?;
+        (plane, thickness) = fit(points, &own)?;
     }
     own.sort_unstable();
-    Some(Sheet { plane, points: own })
+    let thin = thickness < THIN * edge;
+    thin.then_some(Grown { sheet: Sheet { plane, points: own }, thickness })
 }
 
-/// The plane of least squares, and the root mean square distance from it.
+/// The plane of least squares, and the median distance from it.
 fn fit(points: &[Point], own: &[u32]) -> Option<(Plane, f64)> {
     let own: Vec<Point> = own.iter().map(|&p| points[p as usize]).collect();
     let samples = Samples { points: &own, barycentres: &[], normals: &[] };
     let Surface::Plane(plane) = start::plane(samples)? else { return None };
-    let rms = rms(&plane, own.iter().copied());
-    Some((plane, rms))
-}
-
-fn rms(plane: &Plane, points: impl ExactSizeIterator<Item = Point>) -> f64 {
-    let count = points.len() as f64;
-    (points.map(|p| plane.distance(p).powi(2)).sum::<f64>() / count).sqrt()
+    let mut far: Vec<f64> = own.iter().map(|&p| plane.distance(p).abs()).collect();
+    let middle = far.len() / 2;
+    let (_, &mut median, _) = far.select_nth_unstable_by(middle, f64::total_cmp);
+    Some((plane, median))
 }
 
 /// Makes one of sheets that a hole or a gap has parted.
@@ -139,12 +152,12 @@ fn together(points: &[Point], one: &Sheet, other: &Sheet) -> Option<Sheet> {
     let mut own = one.points.clone();
     own.extend(&other.points);
     own.sort_unstable();
-    let (plane, whole) = fit(points, &own)?;
-    let at = |sheet: &Sheet| sheet.points.iter().map(|&p| points[p as usize]).collect::<Vec<_>>();
-    let parts = [one, other].map(|sheet| (sheet, at(sheet)));
-    let flat = parts.iter().map(|(sheet, at)| rms(&sheet.plane, at.iter().copied()));
-    let flattest = flat.fold(0.0, f64::max);
-    let mean = |at: &[Point]| at.iter().map(|&p| plane.distance(p)).sum::<f64>() / at.len() as f64;
-    let on_it = parts.iter().all(|(_, at)| mean(at).abs() < BESIDE * flattest);
-    (on_it && whole < AS_FLAT * flattest).then_some(Sheet { plane, points: own })
+    let (plane, _) = fit(points, &own)?;
+    let rms = |plane: &Plane, sheet: &Sheet| {
+        let squares = sheet.points.iter().map(|&p| plane.distance(points[p as usize]).powi(2));
+        (squares.sum::<f64>() / sheet.points.len() as f64).sqrt()
+    };
+    let flattest = rms(&one.plane, one).max(rms(&other.plane, other));
+    let flat = [one, other].iter().all(|sheet| rms(&plane, sheet) < AS_FLAT * flattest);
+    flat.then_some(Sheet { plane, points: own })
 }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::Outcome;
 use super::cells::Cells;
-use super::levels::levels;
+use super::levels::Levels;
 use super::scene::Scene;
 use super::sheets::{Sheet, find};
 use crate::context::Context;
@@ -20,8 +20,13 @@ use crate::surface::{Plane, Shape, Surface};
 /// A mesh in so many pieces, the largest of less than half of the faces, is in shreds (the scans of six
 /// sheets have 195 to 340, others at most ten; decision 0002).
 const PIECES: usize = 50;
-/// Planes must explain this share of the vertices, or the part is not made of them.
-const EXPLAINED: f64 = 0.75;
+/// So many planes must explain this share of the vertices: a curved shell is cut into more (0.73 on a bent
+/// sheet of planes, 0.33 to 0.44 on shells).
+const LARGE: usize = 5;
+const EXPLAINED: f64 = 0.6;
+/// About the levels of a flat wall vertices err by less than this share of an edge (a sixth on a bent sheet
+/// of planes, most of one where shells are curved).
+const FLAT: f64 = 1.0 / 3.0;
 
 /// The planes of a scan in shreds, if it is one and they explain it; `scene` learns its noise.
 ///
@@ -34,11 +39,18 @@ pub fn recognise(context: &mut Context, scene: &mut Scene) -> Result<Option<Outc
     let points = &scene.mesh.positions;
     let cells = Cells::new(points, scene.edge);
     let sheets = find(context, points, &cells, scene.edge)?;
-    let explained: usize = sheets.iter().map(|sheet| sheet.points.len()).sum();
+    let levels: Vec<Levels> = sheets.iter().map(|sheet| sheet.levels(points)).collect();
+    let flat = sheets.iter().zip(&levels).filter(|(_, levels)| levels.sigma < FLAT * scene.edge);
+    let mut sizes: Vec<usize> = flat.map(|(sheet, _)| sheet.points.len()).collect();
+    sizes.sort_unstable_by(|one, other| other.cmp(one));
+    let explained: usize = sizes.iter().take(LARGE).sum();
     if (explained as f64) < EXPLAINED * points.len() as f64 {
         return Ok(None);
     }
-    let (labels, surfaces, sigma) = divide(scene, &cells, &sheets);
+    let (labels, surfaces) = divide(scene, &cells, &sheets, &levels);
+    let mut errors: Vec<f64> = levels.iter().map(|levels| levels.sigma).collect();
+    errors.sort_by(f64::total_cmp);
+    let sigma = errors[errors.len() / 2];
     scene.evidence.sigma = sigma;
     Ok(Some(Outcome { labels, surfaces, energy: Vec::new() }))
 }
@@ -49,17 +61,20 @@ fn in_shreds(scene: &Scene) -> bool {
     sizes.len() >= PIECES && 2 * largest < scene.mesh.faces.len()
 }
 
-/// The faces to the sides of sheets that they are nearest to, and how much vertices err about those.
-fn divide(scene: &Scene, cells: &Cells, sheets: &[Sheet]) -> (Labels, Vec<Surface>, f64) {
-    let points = &scene.mesh.positions;
+/// The faces to the sides of sheets that they are nearest to.
+fn divide(
+    scene: &Scene,
+    cells: &Cells,
+    sheets: &[Sheet],
+    levels: &[Levels],
+) -> (Labels, Vec<Surface>) {
     // Planes, each with the number of its sheet.
-    let mut sides: Vec<(usize, Plane)> = Vec::new();
-    let mut errors = Vec::new();
-    for (sheet, Sheet { plane, points: own }) in sheets.iter().enumerate() {
-        let levels = levels(own.iter().map(|&v| plane.distance(points[v as usize])).collect());
-        errors.push(levels.sigma);
-        sides.extend(levels.sides(plane).map(|side| (sheet, side)));
-    }
+    let sides: Vec<(usize, Plane)> = sheets
+        .iter()
+        .zip(levels)
+        .enumerate()
+        .flat_map(|(i, (sheet, levels))| levels.sides(&sheet.plane).map(move |side| (i, side)))
+        .collect();
     let beside = cells.marked(sheets.iter().map(|sheet| &sheet.points[..]));
     let nearest = |face: usize| {
         let corners = scene.mesh.corners(face);
@@ -78,6 +93,5 @@ fn divide(scene: &Scene, cells: &Cells, sheets: &[Sheet]) -> (Labels, Vec<Surfac
     for (&new, &old) in labels.iter().zip(&former) {
         surfaces[new as usize] = Surface::Plane(sides[old as usize].1.clone());
     }
-    errors.sort_by(f64::total_cmp);
-    (labels, surfaces, errors[errors.len() / 2])
+    (labels, surfaces)
 }
