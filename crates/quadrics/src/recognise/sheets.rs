@@ -61,14 +61,15 @@ pub fn find(
     let mut free = vec![true; points.len()];
     let mut left = points.len();
     let mut sheets = Vec::new();
+    // What comes after draws as if this had not been tried.
+    let mut rng = context.rng.clone();
     loop {
         context.step("sheets", 1.0 - left as f64 / points.len() as f64)?;
         let open: Vec<u32> = (0..points.len() as u32).filter(|&p| free[p as usize]).collect();
         if open.len() < FEWEST {
             break;
         }
-        let seeds: Vec<u32> =
-            (0..TRIES).map(|_| open[context.rng.random_range(0..open.len())]).collect();
+        let seeds: Vec<u32> = (0..TRIES).map(|_| open[rng.random_range(0..open.len())]).collect();
         let grown = seeds.par_iter().filter_map(|&seed| grow(points, cells, &free, seed, edge));
         // What a description of the points by their sheet saves, in nats.
         let saved =
@@ -160,4 +161,41 @@ fn together(points: &[Point], one: &Sheet, other: &Sheet) -> Option<Sheet> {
     let flattest = rms(&one.plane, one).max(rms(&other.plane, other));
     let flat = [one, other].iter().all(|sheet| rms(&plane, sheet) < AS_FLAT * flattest);
     flat.then_some(Sheet { plane, points: own })
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::RngExt;
+
+    use super::*;
+    use crate::math::Vector;
+
+    #[test]
+    fn two_walls_at_an_angle_are_two_sheets_of_two_levels() {
+        let edge = 0.01;
+        let mut context = Context::new(7);
+        let mut rng = Context::new(1).rng;
+        let mut points = Vec::new();
+        for i in 0..4000 {
+            let side = if i % 2 == 0 { 0.3 } else { -0.3 };
+            let off = edge * (side + 0.3 * (rng.random::<f64>() - 0.5));
+            let (along, up) = (rng.random::<f64>(), rng.random::<f64>());
+            // Strips with gaps of three edges.
+            let along = ((along * 10.0).floor() + 0.7 * along.fract()) / 10.0;
+            points.push(if i < 2400 {
+                Point::new(along, up, off)
+            } else {
+                Point::new(off - 0.1, along, up + 0.1)
+            });
+        }
+        let sheets = find(&mut context, &points, &Cells::new(&points, edge), edge).unwrap();
+        let large: Vec<&Sheet> = sheets.iter().filter(|sheet| sheet.points.len() > 1000).collect();
+        assert_eq!(large.len(), 2);
+        for (sheet, normal) in large.iter().zip([Vector::z(), Vector::x()]) {
+            assert!(sheet.plane.normal.dot(&normal).abs() > 0.9999);
+            let sides: Vec<Plane> = sheet.levels(&points).sides(&sheet.plane).collect();
+            assert_eq!(sides.len(), 2);
+            assert!((sides[0].offset + sides[1].offset - 0.6 * edge).abs() < 0.1 * edge);
+        }
+    }
 }
