@@ -180,8 +180,8 @@ mod tests {
             let side = if i % 2 == 0 { 0.3 } else { -0.3 };
             let off = edge * (side + 0.3 * (rng.random::<f64>() - 0.5));
             let (along, up) = (rng.random::<f64>(), rng.random::<f64>());
-            // Strips with gaps of three edges.
-            let along = ((along * 10.0).floor() + 0.7 * along.fract()) / 10.0;
+            // Strips with gaps of two edges.
+            let along = ((along * 10.0).floor() + 0.8 * along.fract()) / 10.0;
             points.push(if i < 2400 {
                 Point::new(along, up, off)
             } else {
