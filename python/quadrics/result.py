@@ -38,7 +38,7 @@ class Repair:
 
 @dataclass(frozen=True)
 class Region:
-    """A connected set of faces on one surface.
+    """A connected set of faces on one surface; of a scan in shreds, faces that are near each other.
 
     Lengths are in the unit of the input, angles in degrees. `rms` and `max_deviation` are
     orthogonal distances of the faces' vertices from the surface; None for a free-form region.
